@@ -1,0 +1,45 @@
+# Settings every target shares, and the functions the module, test and benchmark lists use.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+
+# The same sums on every machine and at every optimisation level: no fused multiply-add behind our back.
+add_compile_options(-ffp-contract=off)
+
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+
+add_library(canopeer_warnings INTERFACE)
+target_compile_options(canopeer_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+                                                  -Wnon-virtual-dtor -Wold-style-cast)
+option(CANOPEER_WERROR "Treat warnings as errors" OFF)
+if(CANOPEER_WERROR)
+  target_compile_options(canopeer_warnings INTERFACE -Werror)
+endif()
+
+# canopeer_module(<name> SOURCES <file>… [DEPENDS <module or public library>…] [PRIVATE <library>…] [SYSTEM <include dir>…])
+# makes the library canopeer_<name> with the alias canopeer::<name>.
+function(canopeer_module name)
+  cmake_parse_arguments(M "" "" "SOURCES;DEPENDS;PRIVATE;SYSTEM" ${ARGN})
+  add_library(canopeer_${name} STATIC ${M_SOURCES})
+  add_library(canopeer::${name} ALIAS canopeer_${name})
+  target_include_directories(canopeer_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
+  target_include_directories(canopeer_${name} SYSTEM PRIVATE ${M_SYSTEM})
+  target_link_libraries(canopeer_${name} PUBLIC ${M_DEPENDS} PRIVATE ${M_PRIVATE} canopeer_warnings)
+endfunction()
+
+# canopeer_test(<name> SOURCES <file>… LIBS <library>… [SYSTEM <include dir>…]): one test program a module, tests found in it.
+function(canopeer_test name)
+  cmake_parse_arguments(T "" "" "SOURCES;LIBS;SYSTEM" ${ARGN})
+  add_executable(${name}_test ${T_SOURCES})
+  target_link_libraries(${name}_test PRIVATE ${T_LIBS} GTest::gtest GTest::gtest_main canopeer_warnings)
+  target_include_directories(${name}_test SYSTEM PRIVATE ${T_SYSTEM})
+  target_compile_definitions(${name}_test PRIVATE CANOPEER_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+                                                  CANOPEER_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+endfunction()

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "canopeer/geometry/pose.h"
+
+namespace canopeer {
+
+/// What a run was asked to do; the first line of a record.
+struct RunHeader {
+  std::string canopeer_version;
+  std::string mission;  ///< name, e.g. "scenario_1"
+  std::string planner;
+  std::uint64_t seed = 1;
+  std::string compute_table;
+  int segments = 0;  ///< planned
+  double segment_time_s = 60.0;
+  std::string settings_json;  ///< every effective option, as a JSON object in text
+};
+
+struct SegmentEvent {
+  int segment = 0;   ///< 0 …
+  std::string name;  ///< e.g. "stop 1, side 2"
+  double start_s = 0.0;
+  double end_s = 0.0;  ///< filled when the segment is over
+  Box sampling_region_world;
+  Box workspace_world;
+};
+
+/// A fruit as reported after a view; enough to score the run over time.
+struct FruitSnapshot {
+  int id = 0;
+  Vec3 centre = Vec3::Zero();
+  double volume_cm3 = 0.0;
+};
+
+/// One observation.
+struct ViewEvent {
+  int segment = 0;
+  int view = 0;             ///< running number over the whole run, from 0
+  double t_s = 0.0;         ///< when the frame was taken, mission time
+  double planning_s = 0.0;  ///< standing still before the motion that led here
+  double motion_s = 0.0;    ///< of the motion that led here
+  std::vector<double> q;    ///< arm joints at the frame, rad
+  Pose T_world_camera = Pose::Identity();
+  std::string target_kind;               ///< "home", "roi", "occupied" or "border"
+  std::optional<double> predicted_gain;  ///< distinct unknown voxels this view was expected to add
+  std::int64_t realised_gain =
+      0;  ///< voxels that were unknown before this frame and are known after it
+  std::int64_t fused_points = 0;
+  std::int64_t roi_voxels = 0;  ///< distinct ROI voxels in the map after the frame
+  int graph_nodes = 0;
+  int graph_edges = 0;
+  std::vector<FruitSnapshot> fruits;  ///< all fruits known after the frame
+};
+
+/// One motion of the arm or the trolley.
+struct MotionEvent {
+  std::string kind;  ///< "view", "home", "trolley"
+  int segment = 0;
+  double start_s = 0.0;
+  double duration_s = 0.0;
+  std::vector<std::vector<double>>
+      waypoints;                ///< arm joints, rad; straight lines in joint space between them
+  double joint_path_rad = 0.0;  ///< Σ|Δq| along it
+  bool collision =
+      false;  ///< with the robot itself, the structure, or what was mapped when it started
+  bool plant_contact = false;  ///< with a part of a plant that was not mapped yet
+};
+
+/// Sum of work done, e.g. {"candidates", 12345, 1.2}: count and simulated seconds charged for it.
+struct WorkItem {
+  std::string name;
+  std::int64_t count = 0;
+  double seconds = 0.0;
+};
+
+/// A whole run in memory: what `record` holds on disk.
+struct RunRecord {
+  RunHeader header;
+  std::vector<SegmentEvent> segments;
+  std::vector<ViewEvent> views;
+  std::vector<MotionEvent> motions;
+  std::vector<WorkItem> work;
+  double end_s = 0.0;
+  bool interrupted = false;
+};
+
+}  // namespace canopeer
