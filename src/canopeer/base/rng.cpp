@@ -55,7 +55,8 @@ double Rng::normal(double mean, double standard_deviation) {
 }
 
 std::uint64_t Rng::index(std::uint64_t count) {
-  return static_cast<std::uint64_t>((static_cast<unsigned __int128>(bits()) * count) >> 64);
+  __extension__ using Wide = unsigned __int128;  // of the compiler, not of ISO C++
+  return static_cast<std::uint64_t>((static_cast<Wide>(bits()) * count) >> 64);
 }
 
 }  // namespace canopeer

@@ -1,0 +1,154 @@
+#include <oneapi/tbb/global_control.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "canopeer/config/robot_file.h"
+#include "canopeer/mission/mission.h"
+#include "canopeer/sim/simulation.h"
+#include "commands.h"
+#include "mission_arguments.h"
+#include "progress_bar.h"
+#include "run_results.h"
+#include "stop_signal.h"
+
+namespace canopeer::app {
+namespace {
+
+struct RunArguments {
+  MissionArguments mission;
+  std::string planner;
+  std::optional<std::uint64_t> seed;
+  std::optional<int> segments;
+  std::optional<double> time_per_segment;
+  std::string compute_table;
+  int threads = 0;
+  std::string out;
+  bool quiet = false;
+  bool profile = false;
+
+  [[nodiscard]] Overrides overrides() const {
+    Overrides o;
+    if (!planner.empty()) o.emplace_back("planner", planner);
+    if (seed) o.emplace_back("seed", std::to_string(*seed));
+    if (segments) o.emplace_back("max_segments", std::to_string(*segments));
+    if (time_per_segment) o.emplace_back("time_per_segment_s", std::to_string(*time_per_segment));
+    if (!compute_table.empty()) o.emplace_back("compute_table", compute_table);
+    return o;
+  }
+};
+
+RunHeader header_of(const MissionFile& file) {
+  RunHeader header;
+  header.canopeer_version = CANOPEER_VERSION;
+  header.mission = file.mission.name;
+  header.planner = file.mission.planner;
+  header.seed = file.mission.seed;
+  header.compute_table = file.compute_table;
+  header.segments = static_cast<int>(file.mission.segments.size());
+  header.segment_time_s = file.mission.segment_time_s;
+  header.settings_json = file.settings_json;
+  return header;
+}
+
+void print_profile(const StageTimer& timer, double wall_s) {
+  std::printf("\n%-18s %9s\n", "stage", "wall s");
+  for (const auto& [stage, seconds] : timer.seconds()) {
+    std::printf("%-18s %9.2f\n", stage.c_str(), seconds);
+  }
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  std::printf("%-18s %9.2f\npeak memory        %9.0f MB\n", "all", wall_s,
+              static_cast<double>(usage.ru_maxrss) / 1024.0);
+}
+
+/// The home states of the sides a mission visits must exist before anything moves.
+void check_sides(const MissionFile& file, const RobotModel& robot) {
+  for (const auto& segment : file.mission.segments) {
+    const std::string home = "side_" + std::to_string(segment.side);
+    if (segment.side > robot.sides() || !robot.has_home(home)) {
+      stop_with(kBadInput, {file.robot.string() + ": has no boxes or home state for " + home +
+                            ", which the mission visits"});
+    }
+    const auto outside = [](const Joint& axis, double value) {
+      return value < axis.lower - 1e-9 || value > axis.upper + 1e-9;
+    };
+    if (outside(robot.travel_axis(), segment.trolley.travel_m) ||
+        outside(robot.lift_axis(), segment.trolley.lift_m)) {
+      stop_with(kBadInput,
+                {"stops_travel_m, lifts_m: " + segment.name +
+                 " is beyond the limits of the trolley's axes in " + file.robot.string()});
+    }
+  }
+}
+
+void run(const RunArguments& arguments) {
+  const auto begin = std::chrono::steady_clock::now();
+  const MissionFile file = arguments.mission.load(arguments.overrides());
+  const RobotModel robot = value_or_stop(load_robot(file.robot), kBadInput);
+  const ArmIk ik = value_or_stop(ArmIk::make(robot), kBadInput);
+  check_sides(file, robot);
+  std::optional<tbb::global_control> threads;
+  if (arguments.threads > 0) {
+    threads.emplace(tbb::global_control::max_allowed_parallelism,
+                    static_cast<std::size_t>(arguments.threads));
+  }
+  const std::filesystem::path out =
+      arguments.out.empty()
+          ? std::filesystem::path("out") / (file.mission.name + "-" + file.mission.planner +
+                                            "-seed" + std::to_string(file.mission.seed))
+          : std::filesystem::path(arguments.out);
+
+  std::atomic<bool>& stop = catch_stop_signals();
+  const Scene scene = make_world(file.world, file.mission.seed);
+  const SegmentPlan& first = file.mission.segments.front();
+  Simulation simulation(robot, scene, robot.home("side_" + std::to_string(first.side)),
+                        first.trolley, file.simulation);
+  Mission mission(robot, ik, simulation.judge().checker(), simulation.ports(), file.mission, stop);
+  simulation.watch_map(&mission.map());
+  ProgressBar bar(arguments.quiet);
+  mission.on_progress([&](const MissionProgress& progress) { bar.show(progress); });
+
+  RecordWriter writer = value_or_stop(RecordWriter::create(out, header_of(file)), kFailed);
+  const auto outcome = mission.run(writer);
+  bar.finish();
+  const auto elapsed = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  const Summary summary =
+      value_or_stop(write_results(out, header_of(file), mission, scene, elapsed()), kFailed);
+  if (!arguments.quiet) print_summary(summary, out);
+  if (arguments.profile) print_profile(mission.timer(), elapsed());
+  if (!outcome) stop_with(kFailed, outcome.error());
+  if (stop) {
+    std::fprintf(stderr, "canopeer: interrupted; the results so far are in %s\n", out.c_str());
+    throw CLI::RuntimeError(kInterrupted);
+  }
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app) {
+  auto arguments = std::make_shared<RunArguments>();
+  CLI::App* command =
+      app.add_subcommand("run", "Run a mission in simulation and write the results");
+  arguments->mission.add_to(*command);
+  command->add_option("--planner", arguments->planner, "Planner, e.g. vmp");
+  command->add_option("--seed", arguments->seed, "Seed of everything random");
+  command->add_option("--segments", arguments->segments, "Only the first K segments");
+  command->add_option("--time-per-segment", arguments->time_per_segment, "Seconds per segment");
+  command->add_option("--threads", arguments->threads, "Threads at most (0: all cores)")
+      ->check(CLI::Range(0, 1024));
+  command->add_option("--compute-table", arguments->compute_table,
+                      "What computing costs: default, free, or a file");
+  command->add_option("--out", arguments->out, "Directory for the results");
+  command->add_flag("--quiet", arguments->quiet, "Print errors only");
+  command->add_flag("--profile", arguments->profile, "Print where the wall time went");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace canopeer::app

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+
+#include "canopeer/base/compute_cost.h"
+#include "canopeer/base/expected.h"
+
+namespace canopeer {
+
+/// Reads a table of seconds per unit of work: one key per kind (work_name), all required, ≥ 0.
+/// "free" needs no file: see CostTable's default.
+[[nodiscard]] Expected<CostTable> load_cost_table(const std::filesystem::path& path);
+
+}  // namespace canopeer

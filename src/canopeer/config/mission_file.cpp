@@ -1,0 +1,205 @@
+#include "canopeer/config/mission_file.h"
+
+#include <numbers>
+
+#include "canopeer/config/cost_table_file.h"
+#include "canopeer/config/yaml_reader.h"
+
+namespace canopeer {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kRad = std::numbers::pi / 180.0;
+
+void read_world(YamlMap world, WorldOptions& options) {
+  const std::string preset = world.choice("preset", "scenario_1", {"scenario_1", "empty"});
+  if (preset == "scenario_1") options = scenario_1_world();
+  options.name = world.text("name", options.name);
+  if (world.has("plants")) options.plants.clear();
+  for (YamlMap& plant : world.maps("plants")) {
+    PlantPlacement placement;
+    placement.kind = plant.required_integer("kind", 1, 9);
+    placement.position =
+        Vec3(plant.required_number("x_m", {-100, 100}), plant.required_number("y_m", {-1000, 1000}),
+             plant.number("z_m", 0.0, {-10, 10}));
+    placement.yaw_rad = plant.number("yaw_deg", 0.0, {-360, 360}) * kRad;
+    options.plants.push_back(placement);
+  }
+  options.walls = world.boolean("walls", options.walls);
+  options.floor = world.boolean("floor", options.floor);
+  options.wall_x_m = world.number("wall_x_m", options.wall_x_m, {1.5, 100});
+  options.pipes = world.boolean("pipes", options.pipes);
+  options.distractors = world.integer("distractors", options.distractors, 0, 1000);
+}
+
+/// Order per stop: side 1, side 2, the next lift height, side 1, side 2, the next stop.
+void read_segments(YamlMap& file, MissionOptions& mission) {
+  const auto travels = file.required_numbers("stops_travel_m", 0, {-1000, 1000});
+  const auto lifts = file.numbers("lifts_m", {0.0}, 0, {-100, 100});
+  const auto sides = file.numbers("sides", {1, 2}, 0, {1, 2});
+  for (std::size_t stop = 0; stop < travels.size(); ++stop) {
+    for (std::size_t lift = 0; lift < lifts.size(); ++lift) {
+      for (const double side : sides) {
+        SegmentPlan plan;
+        plan.trolley = {travels[stop], lifts[lift]};
+        plan.side = static_cast<int>(side);
+        plan.name = "stop " + std::to_string(stop + 1) +
+                    (lifts.size() > 1 ? ", level " + std::to_string(lift + 1) : "") + ", side " +
+                    std::to_string(plan.side);
+        mission.segments.push_back(plan);
+      }
+    }
+  }
+  if (mission.segments.empty())
+    file.complain("stops_travel_m", "expected at least one stop and one side");
+  const int first =
+      file.integer("max_segments", static_cast<int>(mission.segments.size()), 1, 100000);
+  if (static_cast<std::size_t>(first) < mission.segments.size()) {
+    mission.segments.resize(static_cast<std::size_t>(first));
+  }
+  mission.segment_time_s =
+      file.number("time_per_segment_s", mission.segment_time_s, {1.0, 36000.0});
+}
+
+void read_camera(YamlMap camera, SimulationOptions& simulation) {
+  const int width = camera.integer("width_px", 640, 16, 8192);
+  const int height = camera.integer("height_px", 480, 16, 8192);
+  const double fov = camera.number("fov_x_deg", 80.0, {1.0, 170.0}) * kRad;
+  simulation.camera = CameraIntrinsics::from_fov(width, height, fov);
+  simulation.camera.min_range_m = camera.number("min_range_m", 0.15, {0.01, 10.0});
+  simulation.camera.max_range_m = camera.number("max_range_m", 3.0, {0.02, 100.0});
+  if (simulation.camera.min_range_m >= simulation.camera.max_range_m) {
+    camera.complain("max_range_m", "expected more than min_range_m");
+  }
+}
+
+void read_map(YamlMap map, MissionOptions& mission) {
+  VoxelMapOptions& o = mission.map;
+  o.resolution_m = map.number("resolution_m", o.resolution_m, {0.001, 0.2});
+  o.hit_probability = map.number("hit_probability", o.hit_probability, {0.501, 0.999});
+  o.miss_probability = map.number("miss_probability", o.miss_probability, {0.001, 0.499});
+  o.clamp_min = map.number("clamp_min", o.clamp_min, {0.0005, 0.49});
+  o.clamp_max = map.number("clamp_max", o.clamp_max, {0.51, 0.9995});
+  o.occupied_threshold = map.number("occupied_threshold", o.occupied_threshold, {0.01, 0.99});
+  if (auto ok = o.validate(); !ok) map.complain("resolution_m", ok.error().message);
+  mission.fusion.max_range_m = map.number("max_range_m", mission.fusion.max_range_m, {0.05, 100.0});
+  mission.fusion.clear_no_return = map.boolean("clear_no_return", mission.fusion.clear_no_return);
+}
+
+void read_view_sampling(YamlMap views, GraphBuilderOptions& o) {
+  o.sampler.min_target_distance_m =
+      views.number("min_target_distance_m", o.sampler.min_target_distance_m, {0.0, 10.0});
+  o.sampler.max_target_distance_m =
+      views.number("max_target_distance_m", o.sampler.max_target_distance_m, {0.01, 10.0});
+  if (o.sampler.min_target_distance_m >= o.sampler.max_target_distance_m) {
+    views.complain("max_target_distance_m", "expected more than min_target_distance_m");
+  }
+  o.shares.roi = views.number("roi_share", o.shares.roi, {0.0, 1.0});
+  o.shares.occupied = views.number("occupied_share", o.shares.occupied, {0.0, 1.0});
+  o.shares.border = views.number("border_share", o.shares.border, {0.0, 1.0});
+  const double sum = o.shares.roi + o.shares.occupied + o.shares.border;
+  if (sum < 0.999 || sum > 1.001) views.complain("roi_share", "the three shares must sum to 1");
+}
+
+void read_graph(YamlMap graph, GraphBuilderOptions& o) {
+  o.neighbors = graph.integer("neighbors", o.neighbors, 1, 100);
+  o.max_edge_distance_rad =
+      graph.number("max_edge_distance_rad", o.max_edge_distance_rad, {0.01, 100.0});
+  o.max_start_distance_rad =
+      graph.number("max_start_distance_rad", o.max_start_distance_rad, {0.01, 100.0});
+  o.max_nodes = graph.integer("max_nodes", o.max_nodes, 10, 1000000);
+  o.similarity.position_m = graph.number("similar_position_m", o.similarity.position_m, {0.0, 1.0});
+  o.similarity.angle_rad =
+      graph.number("similar_angle_deg", o.similarity.angle_rad / kRad, {0.0, 180.0}) * kRad;
+}
+
+void read_search(YamlMap search, VmpOptions& o) {
+  const std::string method = search.choice("method", "best_first", {"best_first", "random_walk"});
+  o.search =
+      method == "best_first" ? VmpOptions::Search::best_first : VmpOptions::Search::random_walk;
+  PathSearchOptions& p = o.path_search;
+  p.max_expansions = search.integer("max_expansions", p.max_expansions, 1, 10000000);
+  p.max_views = search.integer("max_views", p.max_views, 1, 1000);
+  p.reparent = search.boolean("reparent", p.reparent);
+  p.fan.fov_x_rad = search.number("fan_fov_x_deg", p.fan.fov_x_rad / kRad, {1.0, 170.0}) * kRad;
+  p.fan.fov_y_rad = search.number("fan_fov_y_deg", p.fan.fov_y_rad / kRad, {1.0, 170.0}) * kRad;
+  p.fan.columns = search.integer("fan_columns", p.fan.columns, 1, 1000);
+  p.fan.rows = search.integer("fan_rows", p.fan.rows, 1, 1000);
+  p.fan.depth_m = search.number("fan_depth_m", p.fan.depth_m, {0.05, 10.0});
+  o.random_walk_views = search.integer("random_walk_views", o.random_walk_views, 1, 1000);
+}
+
+void read_execution(YamlMap execution, VmpOptions& o) {
+  o.look_ahead_rad = execution.number("look_ahead_rad", o.look_ahead_rad, {0.0, 1000.0});
+  o.replan_after_s = execution.number("replan_after_s", o.replan_after_s, {0.0, 1000.0});
+  o.min_nodes = execution.integer("min_nodes", o.min_nodes, 1, 100000);
+}
+
+void read_collision(YamlMap collision, CollisionOptions& o) {
+  o.map_padding_m = collision.number("map_padding_m", o.map_padding_m, {0.0, 0.5});
+  o.self_padding_m = collision.number("self_padding_m", o.self_padding_m, {0.0, 0.5});
+}
+
+void read_detector(YamlMap detector, ColorDetectorOptions& o) {
+  o.hue_low_deg = detector.number("hue_low_deg", o.hue_low_deg, {-180.0, 360.0});
+  o.hue_high_deg = detector.number("hue_high_deg", o.hue_high_deg, {-180.0, 360.0});
+  o.min_saturation = detector.number("min_saturation", o.min_saturation, {0.0, 1.0});
+  o.min_value = detector.number("min_value", o.min_value, {0.0, 1.0});
+  if (auto ok = o.validate(); !ok) detector.complain("hue_low_deg", ok.error().message);
+}
+
+Expected<CostTable> find_cost_table(const std::string& name, const fs::path& mission_dir,
+                                    const std::vector<fs::path>& dirs) {
+  if (name == "free") return CostTable{};
+  if (name.ends_with(".yaml")) {
+    const fs::path given(name);
+    const fs::path beside = mission_dir / given;
+    return load_cost_table(fs::exists(beside) ? beside : given);
+  }
+  for (const auto& dir : dirs) {
+    const fs::path path = dir / (name + ".yaml");
+    if (fs::exists(path)) return load_cost_table(path);
+  }
+  return fail("compute table '" + name + "' not found; expected 'default', 'free' or a .yaml file");
+}
+
+}  // namespace
+
+Expected<MissionFile> load_mission(const fs::path& path, const Overrides& overrides,
+                                   const std::vector<fs::path>& table_dirs) {
+  auto file = YamlMap::load(path);
+  if (!file) return tl::unexpected(file.error());
+  for (const auto& [key, value] : overrides) {
+    if (auto ok = file->set(key, value); !ok) return tl::unexpected(ok.error());
+  }
+  MissionFile result;
+  MissionOptions& mission = result.mission;
+  VmpOptions& vmp = mission.planners.vmp;
+  mission.name = file->text("name", path.stem().string());
+  result.robot = path.parent_path() / file->required_text("robot");
+  mission.planner = file->choice("planner", mission.planner, planner_names());
+  mission.seed = static_cast<std::uint64_t>(file->number("seed", 1, {0, 9007199254740992.0}));
+  result.compute_table = file->text("compute_table", result.compute_table);
+  read_segments(*file, mission);
+  read_world(file->map("world"), result.world);
+  read_camera(file->map("camera"), result.simulation);
+  read_map(file->map("map"), mission);
+  read_view_sampling(file->map("view_sampling"), vmp.builder);
+  read_graph(file->map("graph"), vmp.builder);
+  read_search(file->map("search"), vmp);
+  read_execution(file->map("execution"), vmp);
+  read_collision(file->map("collision"), mission.collision);
+  read_detector(file->map("detector"), mission.detector);
+  result.simulation.arrival_error_rad =
+      file->map("simulation").number("arrival_error_rad", 0.0, {0.0, 0.2});
+  result.simulation.seed = mission.seed;
+  if (auto done = file->finish(); !done) return tl::unexpected(done.error());
+  auto costs = find_cost_table(result.compute_table, path.parent_path(), table_dirs);
+  if (!costs) return fail_in(file->where("compute_table"), costs.error());
+  mission.costs = *costs;
+  result.settings_json = file->settings_json();
+  return result;
+}
+
+}  // namespace canopeer

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "canopeer/base/expected.h"
+#include "canopeer/mission/mission_options.h"
+#include "canopeer/scene/row_world.h"
+#include "canopeer/sim/simulation.h"
+
+namespace canopeer {
+
+/// All that a mission file says; keys and defaults are in docs/formats.md.
+struct MissionFile {
+  MissionOptions mission;
+  std::filesystem::path robot;  ///< robot.yaml
+  WorldOptions world;
+  SimulationOptions simulation;
+  std::string compute_table = "default";  ///< name or file of the cost table
+  std::string settings_json;              ///< every key with the value in force, defaults too
+};
+
+/// Settings from the command line that come before those of the file: dotted key and YAML value.
+using Overrides = std::vector<std::pair<std::string, std::string>>;
+
+/// Reads a mission and its cost table. `table_dirs`: where tables given by name are looked for. The
+/// error has file, line and key.
+[[nodiscard]] Expected<MissionFile> load_mission(
+    const std::filesystem::path& path, const Overrides& overrides,
+    const std::vector<std::filesystem::path>& table_dirs);
+
+}  // namespace canopeer

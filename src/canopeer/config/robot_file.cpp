@@ -1,0 +1,113 @@
+#include "canopeer/config/robot_file.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "canopeer/config/srdf.h"
+#include "canopeer/config/urdf.h"
+#include "canopeer/config/yaml_reader.h"
+
+namespace canopeer {
+namespace {
+
+Pose read_pose(YamlMap pose) {
+  const std::vector<double> xyz = pose.numbers("xyz_m", {0.0, 0.0, 0.0}, 3);
+  const std::vector<double> rpy = pose.numbers("rpy_deg", {0.0, 0.0, 0.0}, 3);
+  const double degree = std::numbers::pi / 180.0;
+  Pose T = Pose::Identity();
+  T.translation() = Vec3(xyz[0], xyz[1], xyz[2]);
+  T.linear() = (Eigen::AngleAxisd(rpy[2] * degree, Vec3::UnitZ()) *
+                Eigen::AngleAxisd(rpy[1] * degree, Vec3::UnitY()) *
+                Eigen::AngleAxisd(rpy[0] * degree, Vec3::UnitX()))
+                   .toRotationMatrix();
+  return T;
+}
+
+Box read_box(YamlMap box) {
+  Box result;
+  int axis = 0;
+  for (const char* key : {"x_m", "y_m", "z_m"}) {
+    const std::vector<double> range = box.required_numbers(key, 2);
+    if (box.has(key) && range[0] >= range[1])
+      box.complain(key, "expected [low, high] with low < high");
+    result.min()[axis] = range[0];
+    result.max()[axis] = range[1];
+    ++axis;
+  }
+  return result;
+}
+
+Configuration to_configuration(const std::vector<double>& values) {
+  return Eigen::Map<const Configuration>(values.data(), static_cast<int>(values.size()));
+}
+
+struct RobotFile {
+  std::filesystem::path urdf;
+  std::filesystem::path srdf;  // empty: none
+  RobotSetup setup;
+  std::vector<double> arm_acceleration_limits;
+  double trolley_acceleration_limit = 0.0;
+};
+
+Expected<RobotFile> read_keys(const std::filesystem::path& path) {
+  auto loaded = YamlMap::load(path);
+  if (!loaded) return fail(loaded.error().message);
+  YamlMap& yaml = *loaded;
+  RobotFile file;
+  RobotSetup& setup = file.setup;
+  (void)yaml.text("name", "");
+  file.urdf = yaml.directory() / yaml.required_text("urdf");
+  if (yaml.has("srdf")) file.srdf = yaml.directory() / yaml.text("srdf", "");
+  setup.base_link = yaml.required_text("base_link");
+  setup.camera_frame = yaml.required_text("camera_frame");
+  if (!yaml.has("arm_joints")) (void)yaml.required_text("arm_joints");
+  setup.arm_joints = yaml.texts("arm_joints", {});
+  setup.travel_joint = yaml.text("travel_joint", "");
+  setup.lift_joint = yaml.text("lift_joint", "");
+  setup.T_world_root = read_pose(yaml.map("world_to_root"));
+
+  const std::size_t dof = setup.arm_joints.size();
+  file.arm_acceleration_limits = yaml.numbers("arm_acceleration_limits_rad_s2",
+                                              std::vector<double>(dof, 1.0), dof, {1e-3, 1e3});
+  file.trolley_acceleration_limit =
+      yaml.number("trolley_acceleration_limit_m_s2", 0.5, {1e-3, 1e3});
+
+  YamlMap homes = yaml.map("home_states_rad");
+  for (const std::string& name : homes.keys())
+    setup.home[name] = to_configuration(homes.required_numbers(name, dof));
+  for (YamlMap& side : yaml.maps("sides")) {
+    setup.workspace.push_back(read_box(side.required_map("workspace")));
+    setup.sampling_region.push_back(read_box(side.required_map("sampling_region")));
+  }
+  if (auto done = yaml.finish(); !done) return fail(done.error().message);
+  return file;
+}
+
+void set_acceleration_limits(const RobotFile& file, RobotDescription& robot) {
+  for (Joint& joint : robot.joints) {
+    const auto& arm = file.setup.arm_joints;
+    const auto it = std::find(arm.begin(), arm.end(), joint.name);
+    if (it != arm.end())
+      joint.acceleration_limit = file.arm_acceleration_limits[it - arm.begin()];
+    else if (joint.name == file.setup.travel_joint || joint.name == file.setup.lift_joint)
+      joint.acceleration_limit = file.trolley_acceleration_limit;
+  }
+}
+
+}  // namespace
+
+Expected<RobotModel> load_robot(const std::filesystem::path& path) {
+  auto file = read_keys(path);
+  if (!file) return fail(file.error().message);
+  auto robot = read_urdf(file->urdf);
+  if (!robot) return fail(robot.error().message);
+  if (!file->srdf.empty()) {
+    if (auto read = read_srdf(file->srdf, *robot); !read) return fail(read.error().message);
+  }
+  set_acceleration_limits(*file, *robot);
+  auto model = RobotModel::make(std::move(*robot), file->setup);
+  if (!model) return fail_in(path.string(), model.error());
+  return model;
+}
+
+}  // namespace canopeer

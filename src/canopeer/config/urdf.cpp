@@ -1,0 +1,179 @@
+#include "canopeer/config/urdf.h"
+
+#include <console_bridge/console.h>
+#include <tinyxml2.h>
+#include <urdf_model/model.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <exception>
+#include <mutex>
+
+#include "canopeer/base/atomic_file.h"
+#include "canopeer/config/xml_lines.h"
+
+namespace canopeer {
+namespace {
+
+/// Keeps what urdfdom would print.
+class Captured : public console_bridge::OutputHandler {
+ public:
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) messages_.push_back(text);
+  }
+  [[nodiscard]] const std::vector<std::string>& messages() const { return messages_; }
+
+ private:
+  std::vector<std::string> messages_;
+};
+
+urdf::ModelInterfaceSharedPtr parse_quietly(const std::string& xml, Captured& captured) {
+  // console_bridge has one output handler per process.
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  console_bridge::useOutputHandler(&captured);
+  urdf::ModelInterfaceSharedPtr model;
+  try {
+    model = urdf::parseURDF(xml);
+  } catch (const std::exception& error) {
+    captured.log(error.what(), console_bridge::CONSOLE_BRIDGE_LOG_ERROR, "", 0);
+  }
+  console_bridge::restorePreviousOutputHandler();
+  return model;
+}
+
+/// The place of the first link or joint the messages name; the whole file when they name none.
+std::string place_of(const std::vector<std::string>& messages, const std::string& name,
+                     const tinyxml2::XMLDocument& document) {
+  for (const std::string& message : messages) {
+    for (const char* tag : {"joint", "link"}) {
+      for (auto* element = document.RootElement()->FirstChildElement(tag); element != nullptr;
+           element = element->NextSiblingElement(tag)) {
+        const char* named = element->Attribute("name");
+        if (named == nullptr) continue;
+        for (const std::string& quoted :
+             {'[' + std::string(named) + ']', '\'' + std::string(named) + '\'',
+              '"' + std::string(named) + '"'}) {
+          if (message.find(quoted) != std::string::npos) return xml_place(name, element);
+        }
+      }
+    }
+  }
+  return name;
+}
+
+Pose to_pose(const urdf::Pose& pose) {
+  Pose T = Pose::Identity();
+  T.linear() =
+      Eigen::Quaterniond(pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z)
+          .normalized()
+          .toRotationMatrix();
+  T.translation() = Vec3(pose.position.x, pose.position.y, pose.position.z);
+  return T;
+}
+
+Expected<CollisionShape> to_shape(const urdf::Collision& collision) {
+  const Pose T = to_pose(collision.origin);
+  if (collision.geometry == nullptr) return fail("a collision element without geometry");
+  switch (collision.geometry->type) {
+    case urdf::Geometry::BOX: {
+      const auto& box = dynamic_cast<const urdf::Box&>(*collision.geometry);
+      return CollisionShape::box({box.dim.x, box.dim.y, box.dim.z}, T);
+    }
+    case urdf::Geometry::CYLINDER: {
+      const auto& cylinder = dynamic_cast<const urdf::Cylinder&>(*collision.geometry);
+      return CollisionShape::cylinder(cylinder.radius, cylinder.length, T);
+    }
+    case urdf::Geometry::SPHERE:
+      return CollisionShape::sphere(dynamic_cast<const urdf::Sphere&>(*collision.geometry).radius,
+                                    T);
+    case urdf::Geometry::MESH:
+      return fail("mesh collision shapes are not supported yet: use boxes, cylinders or spheres");
+  }
+  return fail("unknown collision geometry");
+}
+
+Expected<Link> to_link(const urdf::Link& from) {
+  Link link;
+  link.name = from.name;
+  for (const auto& collision : from.collision_array) {
+    auto shape = to_shape(*collision);
+    if (!shape) return fail(shape.error().message);
+    if (shape->size_m.minCoeff() <= 0.0) return fail("a collision shape without size");
+    link.collision.push_back(*shape);
+  }
+  return link;
+}
+
+Expected<Joint> to_joint(const urdf::Joint& from) {
+  if (from.mimic != nullptr) return fail("mimic joints are not supported");
+  Joint joint;
+  joint.name = from.name;
+  joint.parent = from.parent_link_name;
+  joint.child = from.child_link_name;
+  joint.T_parent_joint = to_pose(from.parent_to_joint_origin_transform);
+  switch (from.type) {
+    case urdf::Joint::FIXED:
+      return joint;
+    case urdf::Joint::REVOLUTE:
+    case urdf::Joint::CONTINUOUS:
+      joint.type = JointType::kRevolute;
+      break;
+    case urdf::Joint::PRISMATIC:
+      joint.type = JointType::kPrismatic;
+      break;
+    default:
+      return fail("expected a fixed, revolute, continuous or prismatic joint");
+  }
+  const Vec3 axis(from.axis.x, from.axis.y, from.axis.z);
+  if (axis.norm() < 1e-9) return fail("the axis has no direction");
+  joint.axis = axis.normalized();
+  if (from.limits != nullptr) {
+    if (from.type != urdf::Joint::CONTINUOUS) {
+      joint.lower = from.limits->lower;
+      joint.upper = from.limits->upper;
+    }
+    joint.velocity_limit = from.limits->velocity;
+  }
+  return joint;
+}
+
+}  // namespace
+
+Expected<RobotDescription> parse_urdf(const std::string& xml, const std::string& name) {
+  tinyxml2::XMLDocument document;
+  if (auto parsed = parse_xml(xml, name, "robot", document); !parsed)
+    return fail(parsed.error().message);
+
+  Captured captured;
+  const auto model = parse_quietly(xml, captured);
+  if (model == nullptr) {
+    const auto& messages = captured.messages();
+    return fail(place_of(messages, name, document) +
+                ": not a URDF robot: " + (messages.empty() ? "reason unknown" : messages.front()));
+  }
+  RobotDescription robot;
+  robot.name = model->getName();
+  for (const auto& [link_name, from] : model->links_) {
+    auto link = to_link(*from);
+    if (!link)
+      return fail(xml_place(name, find_named(document, "link", link_name)) + ": link '" +
+                  link_name + "': " + link.error().message);
+    robot.links.push_back(std::move(*link));
+  }
+  for (const auto& [joint_name, from] : model->joints_) {
+    auto joint = to_joint(*from);
+    if (!joint)
+      return fail(xml_place(name, find_named(document, "joint", joint_name)) + ": joint '" +
+                  joint_name + "': " + joint.error().message);
+    robot.joints.push_back(std::move(*joint));
+  }
+  return robot;
+}
+
+Expected<RobotDescription> read_urdf(const std::filesystem::path& path) {
+  auto xml = read_file(path);
+  if (!xml) return fail(xml.error().message);
+  return parse_urdf(*xml, path.string());
+}
+
+}  // namespace canopeer

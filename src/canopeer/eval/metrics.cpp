@@ -1,0 +1,115 @@
+#include "canopeer/eval/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "canopeer/eval/matching.h"
+
+namespace canopeer {
+namespace {
+
+template <typename Fruits>
+std::vector<Vec3> centres_of(const Fruits& fruits) {
+  std::vector<Vec3> centres;
+  centres.reserve(fruits.size());
+  for (const auto& fruit : fruits) centres.push_back(fruit.centre);
+  return centres;
+}
+
+std::vector<FoundAtTime> found_over_time(const RunRecord& record,
+                                         std::span<const FruitTruth> truth) {
+  std::vector<FoundAtTime> found;
+  found.reserve(record.views.size());
+  for (const ViewEvent& view : record.views) {
+    const std::vector<Vec3> centres = centres_of(view.fruits);
+    found.push_back({view.t_s, static_cast<int>(match_optimal(centres, truth).pairs.size()),
+                     static_cast<int>(match_greedy(centres, truth).pairs.size())});
+  }
+  return found;
+}
+
+std::optional<double> time_to_share(const std::vector<FoundAtTime>& found, double share,
+                                    int fruits_total) {
+  if (fruits_total == 0) return std::nullopt;
+  for (const FoundAtTime& at : found) {
+    if (at.detected >= share * fruits_total - 1e-9) return at.t_s;
+  }
+  return std::nullopt;
+}
+
+/// Mean of detected / fruits_total over [0, end]: what is known stays known until the next frame.
+double mean_detected_share(const std::vector<FoundAtTime>& found, double end_s, int fruits_total) {
+  if (fruits_total == 0 || !(end_s > 0.0)) return 0.0;
+  double area = 0.0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const double from = std::clamp(found[i].t_s, 0.0, end_s);
+    const double to = i + 1 < found.size() ? std::clamp(found[i + 1].t_s, from, end_s) : end_s;
+    area += (to - from) * found[i].detected;
+  }
+  return area / (end_s * fruits_total);
+}
+
+double volume_error(double estimated_cm3, double true_cm3) {
+  return std::abs(estimated_cm3 - true_cm3) / true_cm3;
+}
+
+void score_final_fruits(std::span<const FruitEstimate> fruits, std::span<const FruitTruth> truth,
+                        RunMetrics& metrics) {
+  const std::vector<Vec3> centres = centres_of(fruits);
+  const FruitMatching strict = match_optimal(centres, truth);
+  metrics.detected = static_cast<int>(strict.pairs.size());
+  metrics.false_positives = strict.false_positives;
+  double distance_sum = 0.0;
+  double volume_sum = 0.0;
+  int volumes = 0;
+  for (const FruitPair& pair : strict.pairs) {
+    distance_sum += pair.distance_m;
+    const double true_cm3 = truth[static_cast<std::size_t>(pair.truth)].volume_cm3;
+    if (!(true_cm3 > 0.0)) continue;
+    volume_sum +=
+        volume_error(fruits[static_cast<std::size_t>(pair.estimate)].volume_cm3, true_cm3);
+    ++volumes;
+  }
+  if (!strict.pairs.empty()) metrics.centre_error_mean_m = distance_sum / metrics.detected;
+  if (volumes > 0) metrics.volume_error_mean = volume_sum / volumes;
+
+  const FruitMatching paper = match_greedy(centres, truth);
+  metrics.detected_paper = static_cast<int>(paper.pairs.size());
+  metrics.false_positives_paper = paper.false_positives;
+  metrics.ma50 = static_cast<int>(
+      std::count_if(paper.pairs.begin(), paper.pairs.end(), [&](const FruitPair& pair) {
+        const double true_cm3 = truth[static_cast<std::size_t>(pair.truth)].volume_cm3;
+        const double estimated = fruits[static_cast<std::size_t>(pair.estimate)].volume_cm3;
+        return true_cm3 > 0.0 && 1.0 - volume_error(estimated, true_cm3) > 0.5;
+      }));
+}
+
+void add_up_motions(const RunRecord& record, RunMetrics& metrics) {
+  for (const MotionEvent& motion : record.motions) {
+    metrics.joint_path_length_rad += motion.joint_path_rad;
+    metrics.motion_time_s += motion.duration_s;
+    metrics.collisions += motion.collision;
+    metrics.plant_contacts += motion.plant_contact;
+  }
+  for (const ViewEvent& view : record.views) metrics.planning_time_s += view.planning_s;
+}
+
+}  // namespace
+
+RunMetrics compute_metrics(const RunRecord& record, std::span<const FruitEstimate> fruits,
+                           std::span<const FruitTruth> truth) {
+  RunMetrics metrics;
+  metrics.fruits_total = static_cast<int>(std::count_if(
+      truth.begin(), truth.end(), [](const FruitTruth& fruit) { return fruit.counted; }));
+  score_final_fruits(fruits, truth, metrics);
+  metrics.found = found_over_time(record, truth);
+  metrics.time_to_50pct_s = time_to_share(metrics.found, 0.5, metrics.fruits_total);
+  metrics.time_to_80pct_s = time_to_share(metrics.found, 0.8, metrics.fruits_total);
+  metrics.time_to_90pct_s = time_to_share(metrics.found, 0.9, metrics.fruits_total);
+  metrics.auc = mean_detected_share(metrics.found, record.end_s, metrics.fruits_total);
+  metrics.views = static_cast<int>(record.views.size());
+  add_up_motions(record, metrics);
+  return metrics;
+}
+
+}  // namespace canopeer

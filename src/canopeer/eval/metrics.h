@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "canopeer/fruit/fruit_estimate.h"
+#include "canopeer/record/run_record.h"
+#include "canopeer/scene/fruit_truth.h"
+
+namespace canopeer {
+
+/// How many fruits were found when a frame had been taken in.
+struct FoundAtTime {
+  double t_s = 0.0;  ///< mission time
+  int detected = 0;
+  int detected_paper = 0;
+};
+
+/// The scores of one run. A value that the run cannot give is null, never invented.
+struct RunMetrics {
+  int fruits_total = 0;           ///< counted fruits of the scene
+  int detected = 0;               ///< optimal one-to-one, centres ≤ 0.05 m
+  int detected_paper = 0;         ///< greedy closest-first one-to-one, ≤ 0.20 m
+  std::optional<int> ma50;        ///< detected_paper pairs with 1 − |V − V*| / V* > 0.5
+  int false_positives = 0;        ///< at 0.05 m
+  int false_positives_paper = 0;  ///< at 0.20 m
+  /// Mission time of the first frame after which `detected` is at least that share of
+  /// fruits_total.
+  std::optional<double> time_to_50pct_s;
+  std::optional<double> time_to_80pct_s;
+  std::optional<double> time_to_90pct_s;
+  double auc = 0.0;  ///< mean of detected / fruits_total over the mission time; 0 without fruits
+  std::optional<double> roi_surface_coverage;  ///< needs the seen surface; not computed yet
+  std::optional<double> volume_error_mean;     ///< |V − V*| / V* over the `detected` pairs
+  std::optional<double> centre_error_mean_m;   ///< over the `detected` pairs
+  double joint_path_length_rad = 0.0;          ///< Σ|Δq| of all motions
+  double motion_time_s = 0.0;                  ///< of all motions, transitions included
+  double planning_time_s = 0.0;                ///< standing still before views
+  int collisions = 0;                          ///< motions with one
+  int plant_contacts = 0;                      ///< motions that touched a plant not yet seen
+  int views = 0;
+  std::vector<FoundAtTime> found;  ///< one entry per view
+};
+
+/// Scores a run: the counts from the final fruits, the course over time from the fruits known after
+/// each view. Never NaN.
+[[nodiscard]] RunMetrics compute_metrics(const RunRecord& record,
+                                         std::span<const FruitEstimate> fruits,
+                                         std::span<const FruitTruth> truth);
+
+}  // namespace canopeer

@@ -1,0 +1,113 @@
+#include "canopeer/map/distance_tile.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace canopeer {
+namespace {
+
+constexpr std::size_t kSide = kTileSide;
+
+std::int16_t gap2(int voxels_apart) {
+  const int gap = std::max(0, std::abs(voxels_apart) - 1);
+  return static_cast<std::int16_t>(gap * gap);
+}
+
+// best[x] = min(best[x], from[x] + step) along one row of the tile.
+inline void relax(std::int16_t* best, const std::int16_t* from, std::int16_t step) {
+  for (std::size_t x = 0; x < kSide; ++x) {
+    const auto candidate = static_cast<std::int16_t>(from[x] + step);
+    best[x] = candidate < best[x] ? candidate : best[x];
+  }
+}
+
+// out[j] = min over |k| ≤ reach of rows[(j + k) · stride] + gap²(k), for `count` rows that are
+// `stride` rows apart; rows without a mark hold nothing nearer than `far`.
+__attribute__((target_clones("avx2", "default"))) void relax_rows(
+    const std::int16_t* rows, const std::uint8_t* used, std::size_t stride, int pad, int reach,
+    std::int16_t far, std::int16_t* out, std::uint8_t* out_used, std::size_t out_stride) {
+  for (std::size_t j = 0; j < kSide; ++j) {
+    std::int16_t* best = out + j * out_stride * kSide;
+    std::fill_n(best, kSide, far);
+    std::uint8_t any = 0;
+    for (int k = -reach; k <= reach; ++k) {
+      const std::size_t row = (j + static_cast<std::size_t>(pad + k)) * stride;
+      if (used[row] == 0) continue;
+      any = 1;
+      relax(best, rows + row * kSide, gap2(k));
+    }
+    if (out_used != nullptr) out_used[j * out_stride] = any;
+  }
+}
+
+__attribute__((target_clones("avx2", "default"))) void relax_row(const std::int16_t* padded,
+                                                                 int pad, int reach,
+                                                                 std::int16_t far,
+                                                                 std::int16_t* out) {
+  std::fill_n(out, kSide, far);
+  for (int k = -reach; k <= reach; ++k) relax(out, padded + (pad + k), gap2(k));
+}
+
+// 0 where occupied, `far` elsewhere, along the padded row (y, z); false: all far.
+bool expand_row(const TileSurroundings& around, int y, int z, std::int16_t far,
+                std::vector<std::int16_t>& padded) {
+  const VoxelMask* blocks = around.first +
+                            static_cast<std::size_t>(y / kBlockSide) * around.stride_y +
+                            static_cast<std::size_t>(z / kBlockSide) * around.stride_z;
+  const auto slice = static_cast<std::size_t>(z % kBlockSide);
+  const int shift = y % kBlockSide * kBlockSide;
+  bool any = false;
+  for (std::size_t b = 0; b < padded.size() / kBlockSide; ++b) {
+    const auto bits = static_cast<unsigned>(blocks[b].slices[slice] >> shift & 0xFF);
+    any = any || bits != 0;
+    for (unsigned x = 0; x < kBlockSide; ++x) {
+      padded[b * kBlockSide + x] = (bits >> x & 1U) != 0 ? std::int16_t{0} : far;
+    }
+  }
+  return any;
+}
+
+bool any_occupied(const TileSurroundings& around) {
+  const auto side = static_cast<std::size_t>(kTileBlocks + 2 * around.halo);
+  for (std::size_t z = 0; z < side; ++z) {
+    for (std::size_t y = 0; y < side; ++y) {
+      const VoxelMask* row = around.first + y * around.stride_y + z * around.stride_z;
+      if (std::any_of(row, row + side, [](const VoxelMask& mask) { return mask.any(); })) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<std::int16_t> tile_distance2(const TileSurroundings& around, int reach,
+                                         TileScratch& scratch) {
+  if (!any_occupied(around)) return {};
+  const int pad = around.halo * kBlockSide;
+  const auto wide = static_cast<std::size_t>(kTileSide + 2 * pad);
+  const auto far = static_cast<std::int16_t>(reach * reach);
+  scratch.x_pass.resize(wide * wide * kSide);
+  scratch.x_row_used.resize(wide * wide);
+  scratch.xy_pass.resize(wide * kSide * kSide);
+  scratch.xy_row_used.resize(wide * kSide);
+  std::vector<std::int16_t> padded(wide);
+  for (std::size_t z = 0; z < wide; ++z) {
+    for (std::size_t y = 0; y < wide; ++y) {
+      const bool used = expand_row(around, static_cast<int>(y), static_cast<int>(z), far, padded);
+      scratch.x_row_used[z * wide + y] = used;
+      if (used) relax_row(padded.data(), pad, reach, far, &scratch.x_pass[(z * wide + y) * kSide]);
+    }
+    relax_rows(&scratch.x_pass[z * wide * kSide], &scratch.x_row_used[z * wide], 1, pad, reach, far,
+               &scratch.xy_pass[z * kSide * kSide], &scratch.xy_row_used[z * kSide], 1);
+  }
+  std::vector<std::int16_t> tile(kSide * kSide * kSide);
+  for (std::size_t y = 0; y < kSide; ++y) {
+    relax_rows(&scratch.xy_pass[y * kSide], &scratch.xy_row_used[y], kSide, pad, reach, far,
+               &tile[y * kSide], nullptr, kSide);
+  }
+  return tile;
+}
+
+}  // namespace canopeer

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "canopeer/map/block_directory.h"
+#include "canopeer/map/fusion.h"
+
+namespace canopeer {
+
+/// Where the pixels of a frame end, and how far their rays are free. Both fusion modes stand on
+/// it, so their hits are the same.
+struct EndPoints {
+  struct Block {
+    BlockKey key = 0;
+    VoxelMask hit;
+    VoxelMask roi;  ///< ⊂ hit: a pixel of the ROI mask ended here
+  };
+  std::int64_t count = 0;
+  BlockDirectory directory;   ///< key → index into blocks
+  std::vector<Block> blocks;  ///< in order of first hit
+  /// Per pixel the depth (along the axis) up to which its ray is free; 0: nowhere.
+  DepthImage free_depth;
+};
+
+EndPoints find_end_points(const RgbdFrame& frame, const Mask& roi, const FusionOptions& options,
+                          double resolution_m);
+
+}  // namespace canopeer

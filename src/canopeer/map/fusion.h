@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "canopeer/map/voxel_map.h"
+#include "canopeer/sensing/rgbd_frame.h"
+
+namespace canopeer {
+
+struct FusionOptions {
+  /// Points farther from the camera (Euclidean) are no end points; space is freed up to here.
+  double max_range_m = 3.0;
+  /// A pixel without return (0, NaN, infinite) frees its ray up to max_range_m. Off by default: a
+  /// surface too near gives no return either.
+  bool clear_no_return = false;
+};
+
+struct FuseResult {
+  std::int64_t fused_points = 0;    ///< pixels that were end points
+  std::int64_t newly_known = 0;     ///< voxels unknown before, known after
+  std::int64_t updated_voxels = 0;  ///< voxels that got a hit or a miss
+  /// Blocks whose observed, occupied or ROI masks changed, sorted.
+  std::vector<BlockKey> changed;
+};
+
+/// Fuses one frame, every voxel at most once: voxels that hold an end point get a hit, else voxels
+/// whose centre is seen in front of the surface get a miss. ROI log-odds change in voxels with end
+/// points only: a hit when a pixel of `roi` ended there, else a miss; an empty `roi` (frame not
+/// segmented) leaves them alone. Depth that is NaN, infinite, ≤ 0 or out of range is no end point.
+/// `roi` is empty or as large as the depth image; the pose is finite. The result does not depend
+/// on the number of threads.
+FuseResult fuse(VoxelMap& map, const RgbdFrame& frame, const Mask& roi,
+                const FusionOptions& options = {});
+
+/// The same hits; misses by walking every pixel's ray, as OctoMap does. The slow oracle.
+FuseResult fuse_exact(VoxelMap& map, const RgbdFrame& frame, const Mask& roi,
+                      const FusionOptions& options = {});
+
+}  // namespace canopeer

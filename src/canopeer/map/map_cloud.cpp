@@ -1,0 +1,20 @@
+#include "canopeer/map/map_cloud.h"
+
+namespace canopeer {
+
+PointCloud occupied_cloud(const VoxelMap& map, const MapCloudOptions& options) {
+  PointCloud cloud;
+  cloud.points.reserve(static_cast<std::size_t>(map.occupied_voxels()));
+  for (const BlockKey key : map.block_keys()) {
+    const BlockMasks& block = *map.block(key);
+    for_each_voxel(key, block.occupied, [&](const VoxelIndex& voxel) {
+      cloud.points.push_back(voxel_centre(voxel, map.resolution_m()).cast<float>());
+      if (options.colors) {
+        cloud.colors.push_back(block.roi.test(voxel) ? options.roi : options.other);
+      }
+    });
+  }
+  return cloud;
+}
+
+}  // namespace canopeer

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <numbers>
+#include <vector>
+
+#include "canopeer/geometry/pose.h"
+#include "canopeer/map/voxel_map.h"
+#include "canopeer/map/voxel_set.h"
+
+namespace canopeer {
+
+/// The rays that stand for a camera's view: from the optical centre to a grid of points on the
+/// plane at `depth_m`, evenly spaced, the outermost on the border of the field of view. Angles in
+/// (0, π); columns and rows ≥ 1 (a single one lies in the middle).
+struct ViewFan {
+  double fov_x_rad = 80.0 * std::numbers::pi / 180.0;
+  double fov_y_rad = 60.0 * std::numbers::pi / 180.0;
+  int columns = 20;
+  int rows = 15;
+  double depth_m = 1.0;  ///< along the optical axis, of every ray's end
+};
+
+struct ViewCast {
+  VoxelSet unknown;               ///< the distinct unknown voxels the rays cross
+  std::vector<BlockKey> touched;  ///< sorted: the result holds as long as these do not change
+};
+
+/// What a camera at T_world_camera (optical frame) would newly see: C(n) of [Zaenker23] Alg. 1 for
+/// one view. Rays stop before the first occupied voxel.
+ViewCast cast_view(const VoxelMap& map, const Pose& T_world_camera, const ViewFan& fan = {});
+
+/// None of the blocks the rays crossed is in `changed_sorted`.
+bool still_valid(const ViewCast& cast, const std::vector<BlockKey>& changed_sorted);
+
+/// An occupied voxel lies on the segment from → to, both ends included, the first
+/// `ignore_near_from_m` left out.
+bool ray_blocked(const VoxelMap& map, const Vec3& from, const Vec3& to,
+                 double ignore_near_from_m = 0.0);
+
+}  // namespace canopeer

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <vector>
+
+#include "canopeer/base/expected.h"
+#include "canopeer/robot/robot_model.h"
+#include "canopeer/sensing/rgbd_frame.h"
+
+// What a mission needs of the world, simulated or real. C++17-clean: robot adapters include this.
+
+namespace canopeer {
+
+/// Mission time. One for all ports of a run.
+class Clock {
+ public:
+  virtual ~Clock() = default;
+  /// Seconds since the mission began.
+  [[nodiscard]] virtual double now_s() const = 0;
+  /// Computation worth so many seconds was done: a simulated clock moves on by it, a wall clock has
+  /// moved already.
+  virtual void charge(double compute_s) = 0;
+  /// Lets so many seconds pass.
+  virtual void sleep(double seconds) = 0;
+};
+
+/// How a motion of the arm ended.
+struct MotionOutcome {
+  Configuration q;         ///< where the arm is now, rad
+  bool collision = false;  ///< with itself, the structure or what was mapped at the start (false
+                           ///< where nobody can know)
+  bool plant_contact = false;  ///< with a part of a plant that was not mapped
+};
+
+class Arm {
+ public:
+  virtual ~Arm() = default;
+  /// Joint positions now, rad.
+  [[nodiscard]] virtual Configuration configuration() const = 0;
+  /// Starts a motion along straight lines in joint space between the waypoints, standing still at
+  /// each; the first one is where the arm is. Returns how long it will take, s. The error says what
+  /// the arm refused.
+  [[nodiscard]] virtual Expected<double> start(const std::vector<Configuration>& waypoints) = 0;
+  /// Waits for the end of the motion started last.
+  [[nodiscard]] virtual Expected<MotionOutcome> finish() = 0;
+};
+
+class Trolley {
+ public:
+  virtual ~Trolley() = default;
+  [[nodiscard]] virtual TrolleyState state() const = 0;
+  /// Drives there and waits; the arm must be home.
+  [[nodiscard]] virtual Expected<void> move_to(const TrolleyState& goal) = 0;
+};
+
+class Camera {
+ public:
+  virtual ~Camera() = default;
+  /// One frame from where the camera is now, with pose and time.
+  [[nodiscard]] virtual Expected<RgbdFrame> capture() = 0;
+};
+
+/// The four together; the pointed-to objects outlive the mission.
+struct Ports {
+  Clock* clock = nullptr;
+  Arm* arm = nullptr;
+  Trolley* trolley = nullptr;
+  Camera* camera = nullptr;
+};
+
+}  // namespace canopeer

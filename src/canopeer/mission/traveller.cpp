@@ -1,0 +1,38 @@
+#include "canopeer/mission/traveller.h"
+
+#include <algorithm>
+
+#include "canopeer/base/rng.h"
+
+namespace canopeer {
+
+Traveller::Traveller(const RobotModel& robot, const MotionPlannerOptions& options,
+                     std::uint64_t seed)
+    : planner_(robot, options), seed_(seed) {}
+
+std::vector<Configuration> Traveller::way_home(const Configuration& q, const Configuration& home,
+                                               const CollisionChecker& checker, WorkMeter& work) {
+  constexpr double kThere = 1e-9;
+  std::vector<Configuration> back = {q};
+  if (joint_distance(q, home) < kThere) return back;
+  for (auto step = way_.rbegin();; ++step) {
+    MotionPlanStats stats;
+    const auto plan =
+        planner_.plan(back.back(), home, checker, Rng(seed_, "way home", plans_++).bits(), &stats);
+    work.add(Work::motion_plan, stats.states_checked);
+    if (plan) {
+      back.insert(back.end(), plan->begin() + 1, plan->end());
+      return back;
+    }
+    if (step == way_.rend()) return back;
+    if (joint_distance(*step, back.back()) > kThere) back.push_back(*step);
+  }
+}
+
+void Traveller::took(const std::vector<Configuration>& waypoints) {
+  way_.insert(way_.end(), waypoints.begin(), waypoints.end());
+}
+
+void Traveller::forget_way(const Configuration& q) { way_ = {q}; }
+
+}  // namespace canopeer

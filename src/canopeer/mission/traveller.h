@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "canopeer/base/compute_cost.h"
+#include "canopeer/mission/ports.h"
+#include "canopeer/record/run_record.h"
+#include "canopeer/robot/collision_checker.h"
+#include "canopeer/robot/motion_planner.h"
+
+namespace canopeer {
+
+/// Takes the arm home by a globally planned motion. It remembers the way it came, so that there is
+/// always a way back: where no plan is found it goes back along it until one is, or all the way.
+class Traveller {
+ public:
+  Traveller(const RobotModel& robot, const MotionPlannerOptions& options, std::uint64_t seed);
+
+  /// Joint waypoints from `q` to `home`, both included. Never fails, since the way back is free as
+  /// far as anyone knew when it was taken; a goal that is not on it is then out of reach and the
+  /// last waypoint differs from `home`.
+  [[nodiscard]] std::vector<Configuration> way_home(const Configuration& q,
+                                                    const Configuration& home,
+                                                    const CollisionChecker& checker,
+                                                    WorkMeter& work);
+
+  /// The arm went along `waypoints`.
+  void took(const std::vector<Configuration>& waypoints);
+  /// The arm is home: the way back starts anew.
+  void forget_way(const Configuration& q);
+
+ private:
+  MotionPlanner planner_;
+  std::uint64_t seed_;
+  std::uint64_t plans_ = 0;
+  std::vector<Configuration> way_;  // since home, in order
+};
+
+}  // namespace canopeer

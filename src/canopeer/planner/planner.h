@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "canopeer/base/compute_cost.h"
+#include "canopeer/map/frontier.h"
+#include "canopeer/map/voxel_map.h"
+#include "canopeer/robot/collision_checker.h"
+#include "canopeer/robot/exact_checker.h"
+#include "canopeer/robot/view_ik.h"
+#include "canopeer/viewgraph/segment_frame.h"
+#include "canopeer/viewgraph/view_pose.h"
+
+namespace canopeer {
+
+/// A motion to the next view, and what the planner hopes to see there.
+struct ViewMotion {
+  std::vector<Configuration>
+      waypoints;  ///< first: where the arm is; straight joint motions in between
+  Pose T_world_camera = Pose::Identity();  ///< camera at the end
+  TargetKind kind = TargetKind::none;
+  std::optional<std::int64_t>
+      predicted_gain;  ///< unknown voxels this view is expected to add; nothing: not predicted
+};
+
+/// What the arm should do now.
+struct Decision {
+  enum class Action {
+    move,  ///< take `motion`
+    wait,  ///< nothing to go for yet; ask again after some background work
+    stuck  ///< no way on from here; a move home may help
+  };
+  Action action = Action::wait;
+  ViewMotion motion;
+};
+
+/// All a planner may know about the robot and the map in one segment. The map and the checker (on
+/// the map's distance field) are those of the last fused frame and do not change during a call.
+struct PlanningScene {
+  const RobotModel* robot = nullptr;
+  const ArmIk* ik = nullptr;
+  const VoxelMap* map = nullptr;
+  const CollisionChecker* checker = nullptr;  ///< fast and conservative
+  const ExactChecker* judge = nullptr;        ///< slow and exact
+  const CostTable* costs = nullptr;
+  SegmentFrame segment;
+  std::uint64_t seed = 1;
+};
+
+/// What has changed since the last call of Planner::map_changed.
+struct MapChange {
+  std::vector<BlockKey> blocks;  ///< sorted
+  FrontierTargets targets;       ///< all of them, re-extracted inside the sampling region
+};
+
+struct PlannerStatus {
+  int graph_nodes = 0;
+  int graph_edges = 0;
+};
+
+/// A view planner. The mission calls it from one thread: begin_segment, then for every view
+/// map_changed and decide (again after `wait`), and grow for the time that passes while the arm
+/// moves or decide is paid for.
+class Planner {
+ public:
+  virtual ~Planner() = default;
+
+  /// Forgets the last segment. `scene` stays valid until the next call.
+  virtual void begin_segment(const PlanningScene& scene) = 0;
+  /// A frame was fused into the map.
+  virtual void map_changed(MapChange change) = 0;
+  /// What to do with the arm at `q`. Foreground: the mission's clock pays for the work counted.
+  virtual Decision decide(const Configuration& q, WorkMeter& work) = 0;
+  /// Background work worth `budget_s` by the cost table (a little more is charged to the next
+  /// call).
+  virtual void grow(double budget_s, WorkMeter& work) = 0;
+  [[nodiscard]] virtual PlannerStatus status() const = 0;
+};
+
+}  // namespace canopeer

@@ -1,0 +1,178 @@
+#include "canopeer/planner/vmp/vmp_planner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "canopeer/robot/straight_timing.h"
+#include "canopeer/search/random_walk.h"
+
+namespace canopeer {
+
+VmpPlanner::VmpPlanner(const VmpOptions& options) : options_(options) {}
+
+void VmpPlanner::begin_segment(const PlanningScene& scene) {
+  scene_ = scene;
+  graph_.clear();
+  builder_ = std::make_unique<GraphBuilder>(
+      graph_, scene_.segment, *scene_.robot, *scene_.ik, options_.builder,
+      Rng(scene_.seed, "segment", static_cast<std::uint64_t>(scene_.segment.index)).bits());
+  path_.clear();
+  goal_.reset();
+  started_ = false;
+  searched_ = false;
+  executed_rad_ = 0.0;
+  path_age_s_ = 0.0;
+  credit_s_ = 0.0;
+  waited_s_ = 0.0;
+}
+
+void VmpPlanner::map_changed(MapChange change) {
+  graph_.invalidate_casts(change.blocks);
+  std::vector<NodeId> keep = path();
+  if (goal_) keep.push_back(*goal_);
+  builder_->set_targets(*scene_.map, std::move(change.targets), keep);
+}
+
+Decision VmpPlanner::decide(const Configuration& q, WorkMeter& work) {
+  arrive(q, work);
+  if (look_ahead_used_up()) path_.clear();
+  // Each round takes an edge out of the graph, so this ends.
+  while (true) {
+    if (path_.empty()) {
+      const bool enough = searched_ || graph_.node_count() >= options_.min_nodes ||
+                          builder_->resting() || waited_s_ > options_.max_wait_s / 2;
+      if (!enough) return hold();
+      plan(work);
+      if (path_.empty()) return hold();
+    }
+    const PathStep step = path_.front();
+    if (edge_clear(at_, step.node, work)) return go(step);
+    graph_.remove_edge(at_, step.node);
+    path_.clear();
+  }
+}
+
+void VmpPlanner::grow(double budget_s, WorkMeter& work) {
+  credit_s_ += budget_s;
+  path_age_s_ += budget_s;
+  waited_s_ += budget_s;
+  while (credit_s_ > 0.0 && !builder_->resting()) {
+    WorkMeter batch;
+    builder_->grow(*scene_.map, *scene_.checker, batch);
+    credit_s_ -= batch.seconds(*scene_.costs);
+    work.merge(batch);
+  }
+  credit_s_ = std::min(credit_s_, 0.0);  // time not used is gone
+}
+
+PlannerStatus VmpPlanner::status() const { return {graph_.node_count(), graph_.edge_count()}; }
+
+std::vector<NodeId> VmpPlanner::path() const {
+  std::vector<NodeId> ids;
+  for (const auto& step : path_) ids.push_back(step.node);
+  return ids;
+}
+
+/// Makes the node the arm stands at the current one and marks it visited.
+void VmpPlanner::arrive(const Configuration& q, WorkMeter& work) {
+  const NodeId expected = goal_.value_or(at_);
+  goal_.reset();
+  if (started_ &&
+      joint_distance(q, graph_.node(expected).view.q) <= options_.arrival_tolerance_rad) {
+    at_ = expected;
+    graph_.node(at_).visited = true;
+    return;
+  }
+  insert_off_pose(q, work);
+}
+
+/// The arm is where no node is (at the start, after a move home, or off the planned pose): the
+/// graph gets a node there, with a collision-free edge back to the path if there is one; without,
+/// the path is given up.
+void VmpPlanner::insert_off_pose(const Configuration& q, WorkMeter& work) {
+  const Pose T_world_camera = scene_.segment.T_world_base * scene_.robot->T_base_camera(q);
+  at_ = builder_->add_start(q, *scene_.checker, T_world_camera, work);
+  started_ = true;
+  if (path_.empty()) return;
+  const NodeId next = path_.front().node;
+  if (edge_clear(at_, next, work)) {
+    graph_.connect(at_, next, motion_time(q, graph_.node(next).view.q, scene_.robot->limits()));
+  } else {
+    path_.clear();
+  }
+}
+
+void VmpPlanner::plan(WorkMeter& work) {
+  builder_->join_start(at_, *scene_.checker, work);
+  ViewPath path;
+  if (options_.search == VmpOptions::Search::best_first) {
+    path = search_path(graph_, at_, *scene_.map, options_.path_search, work);
+  } else {
+    Rng rng(scene_.seed, "random walk",
+            (static_cast<std::uint64_t>(scene_.segment.index) << 32) + walks_++);
+    path = random_walk(graph_, at_, options_.random_walk_views, rng);
+  }
+  path_.assign(path.steps.begin(), path.steps.end());
+  executed_rad_ = 0.0;
+  path_age_s_ = 0.0;
+  searched_ = true;
+}
+
+bool VmpPlanner::look_ahead_used_up() const {
+  if (path_.empty() || executed_rad_ == 0.0) return false;  // one edge is always taken
+  const double next =
+      joint_distance(graph_.node(at_).view.q, graph_.node(path_.front().node).view.q);
+  const bool old = options_.replan_after_s > 0.0 && path_age_s_ > options_.replan_after_s;
+  return old || executed_rad_ + next > options_.look_ahead_rad;
+}
+
+bool VmpPlanner::edge_clear(NodeId a, NodeId b, WorkMeter& work) const {
+  int states = 0;
+  const Configuration& q_a = graph_.node(a).view.q;
+  const Configuration& q_b = graph_.node(b).view.q;
+  const bool clear = scene_.checker->edge_free(q_a, q_b, &states);
+  work.add(Work::state_check, states);
+  // The sphere cover rounds up. Close to leaves that would hold the arm where it is, so the real
+  // geometry decides.
+  return clear || judged_clear(q_a, q_b, work);
+}
+
+bool VmpPlanner::judged_clear(const Configuration& a, const Configuration& b,
+                              WorkMeter& work) const {
+  const int steps =
+      std::max(1, static_cast<int>(std::ceil(joint_distance(a, b) / options_.judge_step_rad)));
+  for (int i = 0; i <= steps; ++i) {
+    const double s = static_cast<double>(i) / steps;
+    work.add(Work::exact_state);
+    if (scene_.judge->check(a + s * (b - a), scene_.segment.trolley, scene_.map).any())
+      return false;
+  }
+  return true;
+}
+
+Decision VmpPlanner::go(const PathStep& step) {
+  const ViewNode& from = graph_.node(at_);
+  const ViewNode& to = graph_.node(step.node);
+  Decision decision;
+  decision.action = Decision::Action::move;
+  decision.motion.waypoints = {from.view.q, to.view.q};
+  decision.motion.T_world_camera = to.view.T_world_camera;
+  decision.motion.kind = to.view.kind;
+  if (options_.search == VmpOptions::Search::best_first)
+    decision.motion.predicted_gain = step.new_unknown;
+  executed_rad_ += joint_distance(from.view.q, to.view.q);
+  goal_ = step.node;
+  path_.pop_front();
+  waited_s_ = 0.0;
+  return decision;
+}
+
+Decision VmpPlanner::hold() {
+  Decision decision;
+  decision.action =
+      waited_s_ > options_.max_wait_s ? Decision::Action::stuck : Decision::Action::wait;
+  return decision;
+}
+
+}  // namespace canopeer

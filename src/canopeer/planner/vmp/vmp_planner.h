@@ -1,0 +1,78 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+
+#include "canopeer/planner/planner.h"
+#include "canopeer/search/path_search.h"
+#include "canopeer/search/view_path.h"
+#include "canopeer/viewgraph/graph_builder.h"
+
+namespace canopeer {
+
+struct VmpOptions {
+  enum class Search {
+    best_first,  ///< Algorithm 1 of the paper
+    random_walk  ///< a random path over the same graph, to measure what the search is worth
+  };
+  GraphBuilderOptions builder;
+  PathSearchOptions path_search;
+  Search search = Search::best_first;
+  int random_walk_views = 3;
+  double look_ahead_rad =
+      5.0;  ///< Σ|Δq| executed of a path at most before the next search; one edge is always taken
+  double replan_after_s = 0.0;  ///< search again when a path is older than this; 0: never
+  int min_nodes = 60;           ///< the first search of a segment waits for this many nodes
+  double max_wait_s = 3.0;      ///< waiting longer than this without a motion means stuck
+  double arrival_tolerance_rad =
+      0.005;                     ///< Σ|Δq| within which the arm is at the node it was sent to
+  double judge_step_rad = 0.01;  ///< Σ|Δq| between states judged exactly
+};
+
+/// View motion planning on a graph: T. Zaenker, J. Rückin, R. Menon, M. Popović, M. Bennewitz,
+/// "Graph-based View Motion Planning for Fruit Detection", IROS 2023. Grows a graph of reachable
+/// views in the background, searches it for the path of highest utility, goes along it up to the
+/// look-ahead, checks each edge again before it is taken. docs/method.md lists each step with its
+/// equation and test, and the departures.
+class VmpPlanner : public Planner {
+ public:
+  explicit VmpPlanner(const VmpOptions& options);
+
+  void begin_segment(const PlanningScene& scene) override;
+  void map_changed(MapChange change) override;
+  Decision decide(const Configuration& q, WorkMeter& work) override;
+  void grow(double budget_s, WorkMeter& work) override;
+  [[nodiscard]] PlannerStatus status() const override;
+
+  [[nodiscard]] const ViewGraph& graph() const { return graph_; }
+  /// Views of the present path still to be taken.
+  [[nodiscard]] std::vector<NodeId> path() const;
+
+ private:
+  void arrive(const Configuration& q, WorkMeter& work);
+  void insert_off_pose(const Configuration& q, WorkMeter& work);
+  void plan(WorkMeter& work);
+  [[nodiscard]] bool look_ahead_used_up() const;
+  [[nodiscard]] bool edge_clear(NodeId a, NodeId b, WorkMeter& work) const;
+  [[nodiscard]] bool judged_clear(const Configuration& a, const Configuration& b,
+                                  WorkMeter& work) const;
+  Decision go(const PathStep& step);
+  Decision hold();
+
+  VmpOptions options_;
+  PlanningScene scene_;
+  ViewGraph graph_;
+  std::unique_ptr<GraphBuilder> builder_;
+  std::deque<PathStep> path_;   ///< still to be taken
+  NodeId at_{};                 ///< the node the arm stands at
+  std::optional<NodeId> goal_;  ///< the node it was sent to
+  bool started_ = false;
+  bool searched_ = false;      ///< in this segment
+  double executed_rad_ = 0.0;  ///< of the present path
+  double path_age_s_ = 0.0;
+  double credit_s_ = 0.0;  ///< background seconds not used yet (negative: owed)
+  double waited_s_ = 0.0;
+  std::uint64_t walks_ = 0;
+};
+
+}  // namespace canopeer

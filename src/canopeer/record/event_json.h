@@ -1,0 +1,37 @@
+#pragma once
+
+#include <exception>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "canopeer/record/run_record.h"
+
+/// Events as JSON. Private to this module.
+/// The readers throw the library's exceptions when a key is missing or of the wrong type.
+namespace canopeer::event_json {
+
+using Json = nlohmann::ordered_json;
+
+/// Of the lines this version writes and the only one it reads.
+inline constexpr int kFormatVersion = 1;
+
+Json from(const RunHeader& header);
+Json from(const SegmentEvent& segment);
+Json from(const ViewEvent& view);
+Json from(const MotionEvent& motion);
+Json from(const std::vector<WorkItem>& work);
+
+RunHeader to_header(const Json& json);
+SegmentEvent to_segment(const Json& json);
+ViewEvent to_view(const Json& json);
+MotionEvent to_motion(const Json& json);
+std::vector<WorkItem> to_work(const Json& json);
+
+/// null stands for a number that was not finite.
+double to_number(const Json& json);
+
+/// What the library's exception says, without its own numbering in front.
+std::string reason(const std::exception& exception);
+
+}  // namespace canopeer::event_json

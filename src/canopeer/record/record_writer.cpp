@@ -1,0 +1,71 @@
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "canopeer/record/event_json.h"
+#include "canopeer/record/record_file.h"
+
+namespace canopeer {
+
+using event_json::Json;
+
+struct RecordWriter::File {
+  std::filesystem::path path;
+  std::ofstream out;
+
+  Expected<void> line(const Json& json) {
+    // A name that is not UTF-8 must not cost the run its record.
+    out << json.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+    out.flush();
+    if (!out) return fail(path.string() + ": cannot write: " + std::strerror(errno));
+    return {};
+  }
+};
+
+RecordWriter::RecordWriter(std::unique_ptr<File> file) : file_(std::move(file)) {}
+RecordWriter::RecordWriter(RecordWriter&& other) noexcept = default;
+RecordWriter& RecordWriter::operator=(RecordWriter&& other) noexcept = default;
+RecordWriter::~RecordWriter() = default;
+
+Expected<RecordWriter> RecordWriter::create(const std::filesystem::path& run_dir,
+                                            const RunHeader& header) {
+  std::error_code code;
+  std::filesystem::create_directories(run_dir, code);
+  if (code) return fail(run_dir.string() + ": cannot make the directory: " + code.message());
+  auto file = std::make_unique<File>();
+  file->path = run_dir / "record";
+  file->out.open(file->path, std::ios::binary | std::ios::trunc);
+  if (!file->out) return fail(file->path.string() + ": cannot write: " + std::strerror(errno));
+  if (auto written = file->line(event_json::from(header)); !written) {
+    return fail(written.error().message);
+  }
+  return RecordWriter(std::move(file));
+}
+
+Expected<void> RecordWriter::begin_segment(const SegmentEvent& segment) {
+  return file_->line({{"segment_begin", event_json::from(segment)}});
+}
+
+Expected<void> RecordWriter::end_segment(int segment, double end_s) {
+  return file_->line({{"segment_end", {{"segment", segment}, {"end_s", end_s}}}});
+}
+
+Expected<void> RecordWriter::add(const ViewEvent& view) {
+  return file_->line({{"view", event_json::from(view)}});
+}
+
+Expected<void> RecordWriter::add(const MotionEvent& motion) {
+  return file_->line({{"motion", event_json::from(motion)}});
+}
+
+Expected<void> RecordWriter::set_work(const std::vector<WorkItem>& work) {
+  return file_->line({{"work", event_json::from(work)}});
+}
+
+Expected<void> RecordWriter::finish(double end_s, bool interrupted) {
+  return file_->line({{"end", {{"end_s", end_s}, {"interrupted", interrupted}}}});
+}
+
+}  // namespace canopeer

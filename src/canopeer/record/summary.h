@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "canopeer/base/expected.h"
+
+namespace canopeer {
+
+/// The figures of one run, as `summary.json` holds them, in this order. A figure nobody measured is
+/// null there, never invented: all that need ground truth are null when there is none. Everything
+/// except `wall_time_s` depends only on mission, options and seed.
+struct Summary {
+  std::string canopeer_version;
+  std::string mission;
+  std::string planner;
+  std::uint64_t seed = 1;
+  std::string compute_table;
+  int segments = 0;          ///< begun
+  bool interrupted = false;  ///< ended before all segments were over
+  double sim_time_s = 0.0;
+  double wall_time_s = 0.0;
+  int views = 0;
+  std::int64_t roi_voxels = 0;  ///< distinct ROI voxels in the map at the end
+  int fruits_reported = 0;      ///< rows of fruits.csv
+
+  std::optional<int> fruits_total;           ///< counted fruits of the ground truth
+  std::optional<int> detected;               ///< optimal one-to-one, centres within 0.05 m
+  std::optional<int> detected_paper;         ///< greedy closest-first one-to-one, within 0.20 m
+  std::optional<int> ma50;                   ///< paper pairs with volume accuracy > 0.5
+  std::optional<int> false_positives;        ///< of `detected`
+  std::optional<int> false_positives_paper;  ///< of `detected_paper`
+  std::optional<double> time_to_50pct_s;     ///< null: never reached
+  std::optional<double> time_to_80pct_s;
+  std::optional<double> time_to_90pct_s;
+  std::optional<double> auc;  ///< mean of detected / fruits_total over the mission time
+  std::optional<double> roi_surface_coverage;
+  std::optional<double> volume_error_mean;
+  std::optional<double> centre_error_mean_m;
+
+  double joint_path_length_rad = 0.0;
+  double motion_time_s = 0.0;
+  double planning_time_s = 0.0;
+  int collisions = 0;
+  int plant_contacts = 0;
+};
+
+/// Indented JSON with a newline at the end; the same summary gives the same bytes.
+[[nodiscard]] std::string summary_json(const Summary& summary);
+
+[[nodiscard]] Expected<void> write_summary(const std::filesystem::path& path,
+                                           const Summary& summary);
+
+/// The error names the file, and the key or position. Unknown keys are skipped, missing ones that
+/// may be null are null.
+[[nodiscard]] Expected<Summary> read_summary(const std::filesystem::path& path);
+
+}  // namespace canopeer

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "canopeer/base/expected.h"
+#include "canopeer/fruit/fruit_estimate.h"
+#include "canopeer/record/run_record.h"
+#include "canopeer/record/summary.h"
+#include "canopeer/scene/fruit_truth.h"
+
+namespace canopeer {
+
+struct ReportPicture {
+  std::string caption;    ///< from the file's name: "02_row_after.png" → "Row after"
+  std::string png_bytes;  ///< the file
+};
+
+/// What a run directory holds, as far as a report needs it.
+struct RunFiles {
+  Summary summary;
+  RunRecord record;
+  std::vector<FruitEstimate> fruits;
+  std::vector<FruitTruth> truth;        ///< empty: no ground_truth.csv
+  std::vector<ReportPicture> pictures;  ///< by file name
+};
+
+/// `summary.json` and `record` must be there; the error names the file (and line) at fault.
+[[nodiscard]] Expected<RunFiles> read_run_files(const std::filesystem::path& run_dir);
+
+}  // namespace canopeer

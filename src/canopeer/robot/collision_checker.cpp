@@ -1,0 +1,250 @@
+#include "canopeer/robot/collision_checker.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "canopeer/base/check.h"
+#include "canopeer/map/distance_field.h"
+
+namespace canopeer {
+namespace {
+
+/// Clearances above this need not be known: intervals of an edge that long pass with it.
+constexpr double kFarM = 0.15;
+
+/// Bounds on self-clearances above this are good enough for an edge.
+constexpr double kRefineBelowM = 0.08;
+
+/// With no padding an interval counts as looked at when nothing moves farther than this in it.
+constexpr double kSmallestMotionM = 0.001;
+
+}  // namespace
+
+/// Where everything is in one configuration, world frame.
+struct CollisionChecker::State {
+  std::vector<Pose> T_world_link;
+  std::vector<Vec3> centres;
+  std::vector<Vec3> bounds;  // centres of the arm links' bounding spheres
+};
+
+CollisionChecker::CollisionChecker(const RobotModel& robot, const TrolleyState& trolley,
+                                   const CollisionOptions& options)
+    : robot_(&robot), options_(options) {
+  CANOPEER_CHECK(options.map_padding_m >= 0.0 && options.self_padding_m >= 0.0,
+                 "padding must not be negative");
+  padding_.map.fill(options.map_padding_m);
+  padding_.self.fill(options.self_padding_m);
+  padding_.refine_below_m = kRefineBelowM;
+  robot.link_poses(Configuration::Zero(robot.dof()), trolley, resting_poses_);
+  collect_arm_links();
+  collect_obstacles();
+}
+
+void CollisionChecker::collect_arm_links() {
+  for (std::size_t i = 0; i < robot_->links().size(); ++i) {
+    const int link = static_cast<int>(i);
+    if (robot_->arm_joints_before(link) == 0 || robot_->links()[i].collision.empty()) continue;
+    std::vector<Sphere> spheres;
+    for (const CollisionShape& shape : robot_->links()[i].collision) {
+      const auto cover = cover_with_spheres(shape, options_.sphere_excess_m);
+      spheres.insert(spheres.end(), cover.begin(), cover.end());
+    }
+    ArmLink arm_link;
+    arm_link.link = link;
+    arm_link.first_sphere = static_cast<int>(centres_.size());
+    arm_link.bound = bounding_sphere(spheres);
+    for (const Sphere& sphere : spheres) {
+      centres_.push_back(sphere.centre);
+      radii_m_.push_back(sphere.radius_m);
+      max_radius_m_ = std::max(max_radius_m_, sphere.radius_m);
+    }
+    arm_link.last_sphere = static_cast<int>(centres_.size());
+    measure_reach(arm_link);
+    arm_links_.push_back(std::move(arm_link));
+  }
+  CANOPEER_CHECK(arm_links_.size() <= kMaxArmLinks, "too many links in the arm");
+}
+
+// Of two arm links, the one nearer the base stands for itself by its exact shapes, the other by its
+// spheres: only the joints in between move them against each other.
+void CollisionChecker::collect_obstacles() {
+  for (std::size_t i = 0; i < robot_->links().size(); ++i) {
+    const int link = static_cast<int>(i);
+    Obstacle obstacle;
+    obstacle.link = link;
+    obstacle.moves = robot_->arm_joints_before(link) > 0;
+    for (std::size_t a = 0; a < arm_links_.size(); ++a) {
+      if (robot_->pair_checked(arm_links_[a].link, link) &&
+          robot_->arm_joints_before(arm_links_[a].link) > robot_->arm_joints_before(link))
+        obstacle.arm_links.push_back(static_cast<int>(a));
+    }
+    if (obstacle.arm_links.empty()) continue;
+    for (const CollisionShape& shape : robot_->links()[i].collision) {
+      obstacle.shape = shape;
+      obstacles_.push_back(obstacle);
+      resting_T_shape_world_.push_back((resting_poses_[i] * shape.T_link_shape).inverse());
+    }
+  }
+}
+
+// No point of the link is ever farther from joint i's axis than the way along the chain: the part
+// of the first hop at right angles to the axis, then the lengths of the others.
+void CollisionChecker::measure_reach(ArmLink& arm_link) const {
+  const double own = arm_link.bound.centre.norm() + arm_link.bound.radius_m;
+  const std::vector<RobotModel::Hop> hops = robot_->arm_hops(arm_link.link);
+  const int joints = robot_->arm_joints_before(arm_link.link);
+  arm_link.reach_m.assign(static_cast<std::size_t>(joints), 0.0);
+  for (int i = 0; i < joints; ++i) {
+    double reach = own;
+    bool first = true;
+    for (const RobotModel::Hop& hop : hops) {
+      if (hop.after_joint < i) continue;
+      const Vec3 sideways = hop.offset - hop.axis * hop.axis.dot(hop.offset);
+      reach += first ? sideways.norm() : hop.offset.norm();
+      first = false;
+    }
+    arm_link.reach_m[static_cast<std::size_t>(i)] = reach;
+  }
+}
+
+void CollisionChecker::set_map(const DistanceField* map) {
+  CANOPEER_CHECK(map == nullptr || map->truncation_m() > max_radius_m_ + options_.map_padding_m,
+                 "the distance field is truncated below the arm's spheres");
+  map_ = map;
+}
+
+bool CollisionChecker::measure_map(const State& state, const Required& required,
+                                   Clearances& clearances) const {
+  if (map_ == nullptr) return true;
+  for (std::size_t a = 0; a < arm_links_.size(); ++a) {
+    for (int i = arm_links_[a].first_sphere; i < arm_links_[a].last_sphere; ++i) {
+      const double clearance = static_cast<double>(map_->distance(state.centres[i])) - radii_m_[i];
+      if (clearance < required.map[a]) return false;
+      clearances[a] = std::min(clearances[a], clearance);
+    }
+  }
+  return true;
+}
+
+bool CollisionChecker::measure_self(const State& state, const Required& required,
+                                    Clearances& clearances) const {
+  for (std::size_t k = 0; k < obstacles_.size(); ++k) {
+    const Obstacle& obstacle = obstacles_[k];
+    const Pose T_shape_world =
+        obstacle.moves ? (state.T_world_link[obstacle.link] * obstacle.shape.T_link_shape).inverse()
+                       : resting_T_shape_world_[k];
+    for (const int a : obstacle.arm_links) {
+      const ArmLink& arm_link = arm_links_[a];
+      double clearance = signed_distance(obstacle.shape, T_shape_world * state.bounds[a]) -
+                         arm_link.bound.radius_m;
+      if (clearance < required.self[a] || clearance < required.refine_below_m) {
+        clearance = kFarM;
+        for (int i = arm_link.first_sphere; i < arm_link.last_sphere; ++i)
+          clearance = std::min(
+              clearance,
+              signed_distance(obstacle.shape, T_shape_world * state.centres[i]) - radii_m_[i]);
+      }
+      if (clearance < required.self[a]) return false;
+      clearances[a] = std::min(clearances[a], clearance);
+    }
+  }
+  return true;
+}
+
+bool CollisionChecker::measure(const Configuration& q, const Required& required,
+                               Clearances& clearances) const {
+  clearances.fill(kFarM);
+  State state;
+  state.T_world_link = resting_poses_;
+  robot_->arm_link_poses(q, state.T_world_link);
+  state.centres.resize(centres_.size());
+  state.bounds.reserve(arm_links_.size());
+  for (const ArmLink& arm_link : arm_links_) {
+    state.bounds.push_back(state.T_world_link[arm_link.link] * arm_link.bound.centre);
+    for (int i = arm_link.first_sphere; i < arm_link.last_sphere; ++i)
+      state.centres[i] = state.T_world_link[arm_link.link] * centres_[i];
+  }
+  return measure_map(state, required, clearances) && measure_self(state, required, clearances);
+}
+
+bool CollisionChecker::state_free(const Configuration& q) const {
+  Required required = padding_;
+  required.refine_below_m = 0.0;
+  Clearances clearances;
+  return robot_->within_limits(q) && measure(q, required, clearances);
+}
+
+bool CollisionChecker::edge_free(const Configuration& a, const Configuration& b,
+                                 int* states_checked) const {
+  int unused = 0;
+  return sweep(a, b, padding_, states_checked == nullptr ? unused : *states_checked);
+}
+
+bool CollisionChecker::escape_free(const Configuration& start, const Configuration& to,
+                                   int* states_checked) const {
+  int unused = 0;
+  int& checked = states_checked == nullptr ? unused : *states_checked;
+  checked += 2;
+  if (!state_free(to)) return false;
+  constexpr double kAnything = -1.0;  // no link is deeper in anything than a metre
+  Required required = padding_;
+  required.map.fill(kAnything);
+  required.self.fill(kAnything);
+  Clearances at_start;
+  if (!measure(start, required, at_start)) return false;
+  for (std::size_t i = 0; i < arm_links_.size(); ++i) {
+    required.map[i] = std::min(options_.map_padding_m, at_start[i] - kSmallestMotionM);
+    required.self[i] = std::min(options_.self_padding_m, at_start[i] - kSmallestMotionM);
+  }
+  return sweep(start, to, required, checked);
+}
+
+bool CollisionChecker::sweep(const Configuration& a, const Configuration& b,
+                             const Required& required, int& states_checked) const {
+  struct Interval {
+    double from = 0.0;
+    double to = 1.0;
+    Clearances at_from;
+    Clearances at_to;
+  };
+  if (!robot_->within_limits(a) || !robot_->within_limits(b)) return false;
+  Interval whole;
+  states_checked += 1;
+  if (!measure(a, required, whole.at_from)) return false;
+  states_checked += 1;
+  if (!measure(b, required, whole.at_to)) return false;
+
+  // What any point of each arm link moves at most from a to b.
+  const Configuration step = (b - a).cwiseAbs();
+  Clearances motion{};
+  for (std::size_t i = 0; i < arm_links_.size(); ++i) {
+    for (std::size_t joint = 0; joint < arm_links_[i].reach_m.size(); ++joint)
+      motion[i] += step[static_cast<int>(joint)] * arm_links_[i].reach_m[joint];
+  }
+  const auto covered = [&](const Interval& interval) {
+    const double length = interval.to - interval.from;
+    for (std::size_t i = 0; i < arm_links_.size(); ++i) {
+      const double moved = motion[i] * length;
+      if (moved > kSmallestMotionM && moved > interval.at_from[i] + interval.at_to[i]) return false;
+    }
+    return true;
+  };
+
+  // Breadth first, so that a blocked edge is found out early.
+  std::vector<Interval> open;
+  if (!covered(whole)) open.push_back(whole);
+  for (std::size_t next = 0; next < open.size(); ++next) {
+    const Interval interval = open[next];
+    const double middle = (interval.from + interval.to) / 2.0;
+    Clearances at_middle;
+    states_checked += 1;
+    if (!measure(a + middle * (b - a), required, at_middle)) return false;
+    for (const Interval& half : {Interval{interval.from, middle, interval.at_from, at_middle},
+                                 Interval{middle, interval.to, at_middle, interval.at_to}}) {
+      if (!covered(half)) open.push_back(half);
+    }
+  }
+  return true;
+}
+
+}  // namespace canopeer

@@ -1,0 +1,197 @@
+#include "canopeer/robot/exact_checker.h"
+
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/sphere.h>
+#include <fcl/narrowphase/collision.h>
+
+#include "canopeer/map/voxel_map.h"
+
+namespace canopeer {
+namespace {
+
+using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
+using Mesh = fcl::BVHModel<fcl::OBBd>;
+
+Geometry make_geometry(const CollisionShape& shape) {
+  switch (shape.kind) {
+    case ShapeKind::kBox:
+      return std::make_shared<fcl::Boxd>(shape.size_m);
+    case ShapeKind::kCylinder:
+      return std::make_shared<fcl::Cylinderd>(shape.size_m.x(), shape.size_m.z());
+    case ShapeKind::kSphere:
+      return std::make_shared<fcl::Sphered>(shape.size_m.x());
+  }
+  return nullptr;
+}
+
+std::shared_ptr<Mesh> make_mesh(const TriangleMesh& mesh) {
+  std::vector<fcl::Vector3d> vertices;
+  std::vector<fcl::Triangle> triangles;
+  vertices.reserve(mesh.vertices.size());
+  triangles.reserve(mesh.triangles.size());
+  for (const auto& v : mesh.vertices) vertices.push_back(v.cast<double>());
+  for (const auto& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+  auto model = std::make_shared<Mesh>();
+  model->beginModel();
+  model->addSubModel(vertices, triangles);
+  model->endModel();
+  return model;
+}
+
+bool in_contact(const fcl::CollisionGeometryd* a, const Pose& T_world_a,
+                const fcl::CollisionGeometryd* b, const Pose& T_world_b) {
+  fcl::CollisionRequestd request;  // yes or no: no contact points
+  fcl::CollisionResultd result;
+  return fcl::collide(a, T_world_a, b, T_world_b, request, result) > 0;
+}
+
+/// A link's shape where it is now.
+struct Placed {
+  int link = 0;
+  const fcl::CollisionGeometryd* geometry = nullptr;
+  Pose T_world_shape = Pose::Identity();
+  Box bounds;  // world
+};
+
+}  // namespace
+
+struct MeshObstacles::Impl {
+  struct Part {
+    std::shared_ptr<Mesh> mesh;
+    Box bounds;
+  };
+  std::vector<Part> parts;
+
+  [[nodiscard]] bool touch(const Placed& placed) const {
+    for (const Part& part : parts) {
+      if (part.bounds.intersects(placed.bounds) &&
+          in_contact(placed.geometry, placed.T_world_shape, part.mesh.get(), Pose::Identity()))
+        return true;
+    }
+    return false;
+  }
+};
+
+MeshObstacles::MeshObstacles(const std::vector<TriangleMesh>& meshes_world)
+    : impl_(std::make_unique<Impl>()) {
+  for (const TriangleMesh& mesh : meshes_world) {
+    if (!mesh.triangles.empty()) impl_->parts.push_back({make_mesh(mesh), mesh.bounds()});
+  }
+}
+MeshObstacles::~MeshObstacles() = default;
+MeshObstacles::MeshObstacles(MeshObstacles&&) noexcept = default;
+MeshObstacles& MeshObstacles::operator=(MeshObstacles&&) noexcept = default;
+
+struct ExactChecker::Impl {
+  struct Part {
+    int link = 0;
+    CollisionShape shape;
+    Geometry geometry;
+  };
+
+  const RobotModel* robot = nullptr;
+  std::vector<Part> parts;
+  MeshObstacles structure;
+
+  [[nodiscard]] std::vector<Placed> place(const Configuration& q,
+                                          const TrolleyState& trolley) const {
+    std::vector<Pose> T_world_link;
+    robot->link_poses(q, trolley, T_world_link);
+    std::vector<Placed> placed;
+    placed.reserve(parts.size());
+    for (const Part& part : parts) {
+      const Pose T = T_world_link[part.link] * part.shape.T_link_shape;
+      const Vec3 half = part.shape.half_extents();
+      placed.push_back({part.link, part.geometry.get(), T, transformed(Box(-half, half), T)});
+    }
+    return placed;
+  }
+
+  [[nodiscard]] const std::string& name(int link) const { return robot->links()[link].name; }
+  [[nodiscard]] bool in_arm(int link) const { return robot->arm_joints_before(link) > 0; }
+
+  bool find_self(const std::vector<Placed>& placed, std::string& pair) const {
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+      for (std::size_t j = i + 1; j < placed.size(); ++j) {
+        const Placed& a = placed[i];
+        const Placed& b = placed[j];
+        if (!robot->pair_checked(a.link, b.link) || !a.bounds.intersects(b.bounds)) continue;
+        if (!in_contact(a.geometry, a.T_world_shape, b.geometry, b.T_world_shape)) continue;
+        pair = name(a.link) + " / " + name(b.link);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  bool find_structure(const std::vector<Placed>& placed, std::string& pair) const {
+    for (const Placed& part : placed) {
+      if (!structure.impl_->touch(part)) continue;
+      pair = name(part.link) + " / structure";
+      return true;
+    }
+    return false;
+  }
+
+  bool find_map(const std::vector<Placed>& placed, const VoxelMap& map, std::string& pair) const {
+    const double edge = map.resolution_m();
+    const fcl::Boxd cube(edge, edge, edge);
+    for (const Placed& part : placed) {
+      if (!in_arm(part.link)) continue;
+      // for_each_occupied goes by voxel centres.
+      const Vec3 margin = Vec3::Constant(edge * 0.501);
+      bool contact = false;
+      map.for_each_occupied(Box(part.bounds.min() - margin, part.bounds.max() + margin),
+                            [&](const VoxelIndex& voxel) {
+                              if (contact) return;
+                              Pose T_world_cube = Pose::Identity();
+                              T_world_cube.translation() = voxel_centre(voxel, edge);
+                              contact = in_contact(part.geometry, part.T_world_shape, &cube,
+                                                   T_world_cube);
+                            });
+      if (!contact) continue;
+      pair = name(part.link) + " / map";
+      return true;
+    }
+    return false;
+  }
+};
+
+ExactChecker::ExactChecker(const RobotModel& robot,
+                           const std::vector<TriangleMesh>& structure_world)
+    : impl_(new Impl{&robot, {}, MeshObstacles(structure_world)}) {
+  for (std::size_t i = 0; i < robot.links().size(); ++i) {
+    for (const CollisionShape& shape : robot.links()[i].collision)
+      impl_->parts.push_back({static_cast<int>(i), shape, make_geometry(shape)});
+  }
+}
+ExactChecker::~ExactChecker() = default;
+ExactChecker::ExactChecker(ExactChecker&&) noexcept = default;
+ExactChecker& ExactChecker::operator=(ExactChecker&&) noexcept = default;
+
+ContactReport ExactChecker::check(const Configuration& q, const TrolleyState& trolley,
+                                  const VoxelMap* map) const {
+  const std::vector<Placed> placed = impl_->place(q, trolley);
+  ContactReport report;
+  std::string pair;
+  const auto note = [&](bool contact) {
+    if (contact && report.pair.empty()) report.pair = pair;
+    return contact;
+  };
+  report.self = note(impl_->find_self(placed, pair));
+  report.structure = note(impl_->find_structure(placed, pair));
+  report.map = note(map != nullptr && impl_->find_map(placed, *map, pair));
+  return report;
+}
+
+bool ExactChecker::touches(const Configuration& q, const TrolleyState& trolley,
+                           const MeshObstacles& obstacles) const {
+  for (const Placed& part : impl_->place(q, trolley)) {
+    if (impl_->in_arm(part.link) && obstacles.impl_->touch(part)) return true;
+  }
+  return false;
+}
+
+}  // namespace canopeer

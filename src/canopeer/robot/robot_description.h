@@ -1,0 +1,70 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "canopeer/geometry/pose.h"
+
+namespace canopeer {
+
+enum class ShapeKind { kBox, kCylinder, kSphere };
+
+/// A convex solid, centred at its own origin and placed in a link.
+struct CollisionShape {
+  ShapeKind kind = ShapeKind::kSphere;
+  Vec3 size_m = Vec3::Zero();  ///< box: edge lengths; cylinder (about z): radius, radius, length;
+                               ///< sphere: radius three times
+  Pose T_link_shape = Pose::Identity();
+
+  static CollisionShape box(const Vec3& edges_m, const Pose& T_link_shape = Pose::Identity()) {
+    return {ShapeKind::kBox, edges_m, T_link_shape};
+  }
+  static CollisionShape cylinder(double radius_m, double length_m,
+                                 const Pose& T_link_shape = Pose::Identity()) {
+    return {ShapeKind::kCylinder, Vec3(radius_m, radius_m, length_m), T_link_shape};
+  }
+  static CollisionShape sphere(double radius_m, const Pose& T_link_shape = Pose::Identity()) {
+    return {ShapeKind::kSphere, Vec3::Constant(radius_m), T_link_shape};
+  }
+  /// Half edge lengths of the smallest box around it, axes of the shape.
+  [[nodiscard]] Vec3 half_extents() const {
+    if (kind == ShapeKind::kBox) return size_m / 2.0;
+    if (kind == ShapeKind::kCylinder) return {size_m.x(), size_m.x(), size_m.z() / 2.0};
+    return size_m;
+  }
+};
+
+struct Link {
+  std::string name;
+  std::vector<CollisionShape> collision;  ///< empty: a frame only
+};
+
+enum class JointType { kFixed, kRevolute, kPrismatic };
+
+/// Moves `child` against `parent`: T_parent_child = T_parent_joint · motion(q about or along axis).
+/// Units: rad, rad/s, rad/s² (revolute) or m, m/s, m/s² (prismatic).
+struct Joint {
+  std::string name;
+  JointType type = JointType::kFixed;
+  std::string parent;
+  std::string child;
+  Pose T_parent_joint = Pose::Identity();
+  Vec3 axis = Vec3::UnitZ();  ///< unit vector, joint frame
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  double velocity_limit = std::numeric_limits<double>::infinity();
+  double acceleration_limit = std::numeric_limits<double>::infinity();
+};
+
+/// A robot as its files (URDF, SRDF) tell it: a tree of links, plain values.
+struct RobotDescription {
+  std::string name;
+  std::vector<Link> links;
+  std::vector<Joint> joints;
+  /// Pairs of links that need no self-collision check: neighbours, and pairs that can never meet.
+  std::vector<std::pair<std::string, std::string>> disabled_pairs;
+};
+
+}  // namespace canopeer

@@ -1,0 +1,317 @@
+#include "canopeer/robot/robot_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "canopeer/base/check.h"
+
+namespace canopeer {
+namespace {
+
+/// T · (rotation about `axis`); the usual axis, z, mixes two columns only.
+Pose rotated(const Pose& T, const Vec3& axis, double angle) {
+  Pose result = T;
+  if (axis == Vec3::UnitZ()) {
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    result.linear().col(0) = c * T.linear().col(0) + s * T.linear().col(1);
+    result.linear().col(1) = c * T.linear().col(1) - s * T.linear().col(0);
+  } else {
+    result.linear() = T.linear() * Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+  }
+  return result;
+}
+
+const Joint* find_joint(const RobotDescription& robot, const std::string& name) {
+  const auto it = std::find_if(robot.joints.begin(), robot.joints.end(),
+                               [&](const Joint& joint) { return joint.name == name; });
+  return it == robot.joints.end() ? nullptr : &*it;
+}
+
+Joint fixed_axis() {
+  Joint joint;
+  joint.lower = joint.upper = 0.0;
+  return joint;
+}
+
+}  // namespace
+
+Expected<RobotModel> RobotModel::make(RobotDescription description, RobotSetup setup) {
+  RobotModel model;
+  model.description_ = std::move(description);
+  model.setup_ = std::move(setup);
+  if (auto ordered = model.order_links(); !ordered) return fail(ordered.error().message);
+  if (auto assigned = model.assign_roles(); !assigned) return fail(assigned.error().message);
+  if (auto checked = model.check_setup(); !checked) return fail(checked.error().message);
+  model.collect_pairs();
+  return model;
+}
+
+// Breadth first from the one link that is nobody's child.
+Expected<void> RobotModel::order_links() {
+  std::map<std::string, const Joint*> carried_by;
+  for (const Joint& joint : description_.joints) {
+    if (!carried_by.emplace(joint.child, &joint).second)
+      return fail("link '" + joint.child + "' is the child of two joints");
+  }
+  for (const Link& link : description_.links) {
+    if (carried_by.count(link.name) > 0) continue;
+    if (!links_.empty())
+      return fail("links '" + links_.front().name + "' and '" + link.name +
+                  "' both have no parent: the robot must be one tree");
+    links_.push_back(link);
+    nodes_.emplace_back();
+  }
+  for (std::size_t parent = 0; parent < links_.size(); ++parent) {
+    for (const Link& link : description_.links) {
+      const auto it = carried_by.find(link.name);
+      if (it == carried_by.end() || it->second->parent != links_[parent].name) continue;
+      const Joint& joint = *it->second;
+      Node node;
+      node.parent = static_cast<int>(parent);
+      node.T_parent_joint = joint.T_parent_joint;
+      node.axis = joint.axis.normalized();
+      node.type = joint.type;
+      links_.push_back(link);
+      nodes_.push_back(node);
+    }
+  }
+  if (links_.size() != description_.links.size())
+    return fail("some links hang on no root: the robot must be one tree");
+  return {};
+}
+
+Expected<void> RobotModel::assign_roles() {
+  const auto axis_node = [&](const std::string& name, JointType type, const char* what,
+                             int& index) -> Expected<const Joint*> {
+    const Joint* joint = find_joint(description_, name);
+    if (joint == nullptr) return fail("no joint is called '" + name + "' (" + what + ")");
+    if (joint->type != type)
+      return fail("joint '" + name + "' must be " +
+                  (type == JointType::kRevolute ? "revolute" : "prismatic") + " (" + what + ")");
+    if (!std::isfinite(joint->lower) || !std::isfinite(joint->upper) ||
+        joint->lower > joint->upper || !(joint->velocity_limit > 0.0) ||
+        !std::isfinite(joint->velocity_limit) || !(joint->acceleration_limit > 0.0) ||
+        !std::isfinite(joint->acceleration_limit)) {
+      return fail("joint '" + name +
+                  "' needs finite position limits in order, and finite velocity and acceleration "
+                  "limits above 0");
+    }
+    index = link_index(joint->child);
+    return joint;
+  };
+
+  const int dof = static_cast<int>(setup_.arm_joints.size());
+  limits_.lower.resize(dof);
+  limits_.upper.resize(dof);
+  limits_.velocity.resize(dof);
+  limits_.acceleration.resize(dof);
+  for (int i = 0; i < dof; ++i) {
+    int index = -1;
+    auto joint = axis_node(setup_.arm_joints[i], JointType::kRevolute, "arm joint", index);
+    if (!joint) return fail(joint.error().message);
+    if (nodes_[index].drive != Drive::kNone)
+      return fail("joint '" + setup_.arm_joints[i] + "' is listed twice");
+    nodes_[index].drive = Drive::kArm;
+    nodes_[index].arm_joint = i;
+    arm_chain_.push_back(index);
+    limits_.lower[i] = (*joint)->lower;
+    limits_.upper[i] = (*joint)->upper;
+    limits_.velocity[i] = (*joint)->velocity_limit;
+    limits_.acceleration[i] = (*joint)->acceleration_limit;
+  }
+  travel_axis_ = lift_axis_ = fixed_axis();
+  for (const bool travel : {true, false}) {
+    const std::string& name = travel ? setup_.travel_joint : setup_.lift_joint;
+    if (name.empty()) continue;
+    int index = -1;
+    auto joint = axis_node(name, JointType::kPrismatic, "trolley axis", index);
+    if (!joint) return fail(joint.error().message);
+    nodes_[index].drive = travel ? Drive::kTravel : Drive::kLift;
+    (travel ? travel_axis_ : lift_axis_) = **joint;
+  }
+
+  for (std::size_t i = 1; i < nodes_.size(); ++i) {
+    Node& node = nodes_[i];
+    const Node& parent = nodes_[node.parent];
+    node.arm_joints_before = parent.arm_joints_before;
+    if (node.drive == Drive::kArm) {
+      if (node.arm_joint != parent.arm_joints_before)
+        return fail("arm joints must form one chain, listed from base to tool; '" +
+                    setup_.arm_joints[node.arm_joint] + "' is out of order");
+      ++node.arm_joints_before;
+    }
+    node.rigid_group = node.drive == Drive::kNone ? parent.rigid_group : static_cast<int>(i);
+  }
+
+  const auto path_to = [&](int link, int stop) {
+    std::vector<int> path;
+    for (; link != stop && link >= 0; link = nodes_[link].parent) path.push_back(link);
+    std::reverse(path.begin(), path.end());
+    return path;
+  };
+  const int base = link_index(setup_.base_link);
+  const int camera = link_index(setup_.camera_frame);
+  if (base < 0) return fail("no link is called '" + setup_.base_link + "' (base_link)");
+  if (camera < 0) return fail("no link is called '" + setup_.camera_frame + "' (camera_frame)");
+  base_path_ = path_to(base, -1);
+  camera_path_ = path_to(camera, base);
+  if (!camera_path_.empty() && nodes_[camera_path_.front()].parent != base)
+    return fail("the camera frame '" + setup_.camera_frame + "' does not hang on base_link '" +
+                setup_.base_link + "'");
+  if (nodes_[base].arm_joints_before != 0 || nodes_[camera].arm_joints_before != dof)
+    return fail("all arm joints must lie between base_link '" + setup_.base_link +
+                "' and camera_frame '" + setup_.camera_frame + "'");
+  for (const int index : camera_path_) {
+    if (nodes_[index].drive == Drive::kTravel || nodes_[index].drive == Drive::kLift)
+      return fail("a trolley axis lies between base_link and camera_frame");
+  }
+  return {};
+}
+
+Expected<void> RobotModel::check_setup() const {
+  for (const auto& [name, q] : setup_.home) {
+    if (q.size() != dof())
+      return fail("home state '" + name + "' needs " + std::to_string(dof()) + " values");
+    if (!within_limits(q)) return fail("home state '" + name + "' is outside the joint limits");
+  }
+  if (setup_.workspace.size() != setup_.sampling_region.size())
+    return fail("each side needs a workspace and a sampling region");
+  for (const auto& boxes : {setup_.workspace, setup_.sampling_region}) {
+    for (const Box& box : boxes) {
+      if (box.isEmpty()) return fail("a workspace or sampling region is empty");
+    }
+  }
+  for (const auto& [a, b] : description_.disabled_pairs) {
+    for (const auto& name : {a, b}) {
+      if (link_index(name) < 0) return fail("disabled pair: no link is called '" + name + "'");
+    }
+  }
+  return {};
+}
+
+void RobotModel::collect_pairs() {
+  const std::size_t n = links_.size();
+  pair_checked_.assign(n * n, 0);
+  for (std::size_t a = 0; a < n; ++a) {
+    for (std::size_t b = 0; b < n; ++b) {
+      pair_checked_[a * n + b] = nodes_[a].rigid_group != nodes_[b].rigid_group &&
+                                 !links_[a].collision.empty() && !links_[b].collision.empty();
+    }
+  }
+  for (const auto& [name_a, name_b] : description_.disabled_pairs) {
+    const auto a = static_cast<std::size_t>(link_index(name_a));
+    const auto b = static_cast<std::size_t>(link_index(name_b));
+    pair_checked_[a * n + b] = pair_checked_[b * n + a] = 0;
+  }
+}
+
+bool RobotModel::within_limits(const Configuration& q) const {
+  return (q.array() >= limits_.lower.array()).all() && (q.array() <= limits_.upper.array()).all();
+}
+
+Pose RobotModel::T_parent_link(const Node& node, const Configuration& q,
+                               const TrolleyState& trolley) const {
+  switch (node.drive) {
+    case Drive::kNone:
+      return node.T_parent_joint;
+    case Drive::kArm:
+      return rotated(node.T_parent_joint, node.axis, q[node.arm_joint]);
+    case Drive::kTravel:
+      return node.T_parent_joint * Eigen::Translation3d(node.axis * trolley.travel_m);
+    case Drive::kLift:
+      return node.T_parent_joint * Eigen::Translation3d(node.axis * trolley.lift_m);
+  }
+  return node.T_parent_joint;
+}
+
+Pose RobotModel::T_world_base(const TrolleyState& trolley) const {
+  const Configuration none;  // no arm joint lies before the base
+  Pose T = setup_.T_world_root;
+  for (const int index : base_path_) T = T * T_parent_link(nodes_[index], none, trolley);
+  return T;
+}
+
+Pose RobotModel::T_base_camera(const Configuration& q) const {
+  CANOPEER_CHECK(q.size() == dof(), "configuration of another arm");
+  Pose T = Pose::Identity();
+  for (const int index : camera_path_) T = T * T_parent_link(nodes_[index], q, {});
+  return T;
+}
+
+std::vector<RobotModel::AxisLine> RobotModel::arm_axes(const Configuration& q) const {
+  std::vector<AxisLine> axes;
+  Pose T = Pose::Identity();
+  for (const int index : camera_path_) {
+    const Node& node = nodes_[index];
+    const Pose T_base_joint = T * node.T_parent_joint;
+    if (node.drive == Drive::kArm)
+      axes.push_back({T_base_joint.translation(), T_base_joint.linear() * node.axis});
+    T = T * T_parent_link(node, q, {});
+  }
+  return axes;
+}
+
+std::vector<RobotModel::Hop> RobotModel::arm_hops(int link) const {
+  std::vector<Hop> hops;
+  for (; nodes_[link].parent >= 0; link = nodes_[link].parent) {
+    const Node& parent = nodes_[nodes_[link].parent];
+    if (parent.arm_joints_before == 0) break;
+    // A fixed joint's stretch has no axis of its own; only the first stretch after a joint uses it.
+    hops.push_back(
+        {parent.arm_joints_before - 1, nodes_[link].T_parent_joint.translation(), parent.axis});
+  }
+  std::reverse(hops.begin(), hops.end());
+  return hops;
+}
+
+int RobotModel::link_index(std::string_view name) const {
+  const auto it = std::find_if(links_.begin(), links_.end(),
+                               [&](const Link& link) { return link.name == name; });
+  return it == links_.end() ? -1 : static_cast<int>(it - links_.begin());
+}
+
+bool RobotModel::pair_checked(int link_a, int link_b) const {
+  return pair_checked_[static_cast<std::size_t>(link_a) * links_.size() +
+                       static_cast<std::size_t>(link_b)] != 0;
+}
+
+void RobotModel::link_poses(const Configuration& q, const TrolleyState& trolley,
+                            std::vector<Pose>& T_world_link) const {
+  CANOPEER_CHECK(q.size() == dof(), "configuration of another arm");
+  T_world_link.resize(links_.size());
+  T_world_link[0] = setup_.T_world_root;
+  for (std::size_t i = 1; i < nodes_.size(); ++i)
+    T_world_link[i] = T_world_link[nodes_[i].parent] * T_parent_link(nodes_[i], q, trolley);
+}
+
+void RobotModel::arm_link_poses(const Configuration& q, std::vector<Pose>& T_world_link) const {
+  for (std::size_t i = 1; i < nodes_.size(); ++i) {
+    if (nodes_[i].arm_joints_before == 0) continue;
+    T_world_link[i] = T_world_link[nodes_[i].parent] * T_parent_link(nodes_[i], q, {});
+  }
+}
+
+bool RobotModel::has_home(std::string_view name) const { return setup_.home.count(name) > 0; }
+
+const Configuration& RobotModel::home(std::string_view name) const {
+  const auto it = setup_.home.find(name);
+  CANOPEER_CHECK(it != setup_.home.end(), "no home state of that name");
+  return it->second;
+}
+
+const Box& RobotModel::workspace(int side) const {
+  CANOPEER_CHECK(side >= 1 && side <= sides(), "no such side");
+  return setup_.workspace[side - 1];
+}
+
+const Box& RobotModel::sampling_region(int side) const {
+  CANOPEER_CHECK(side >= 1 && side <= sides(), "no such side");
+  return setup_.sampling_region[side - 1];
+}
+
+double joint_distance(const Configuration& a, const Configuration& b) {
+  return (a - b).lpNorm<1>();
+}
+
+}  // namespace canopeer

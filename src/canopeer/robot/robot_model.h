@@ -1,0 +1,146 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "canopeer/base/expected.h"
+#include "canopeer/geometry/pose.h"
+#include "canopeer/robot/robot_description.h"
+
+namespace canopeer {
+
+/// Arm joint positions in the order of RobotSetup::arm_joints, rad.
+using Configuration = Eigen::VectorXd;
+
+/// Where the trolley stands and how high the arm is lifted.
+struct TrolleyState {
+  double travel_m = 0.0;  ///< along the row
+  double lift_m = 0.0;
+};
+
+/// The part a description's links and joints play, and where the robot stands.
+struct RobotSetup {
+  std::vector<std::string> arm_joints;  ///< from base to tool, all revolute
+  std::string base_link;                ///< frame in which boxes and views are given
+  std::string camera_frame;             ///< optical frame: z forward, y down
+  std::string travel_joint;             ///< prismatic; empty: no such axis
+  std::string lift_joint;               ///< prismatic; empty: no such axis
+  Pose T_world_root = Pose::Identity();
+  std::map<std::string, Configuration, std::less<>> home;  ///< named states, e.g. "side_1"
+  std::vector<Box> workspace;        ///< one per side: where the camera may be, arm base frame
+  std::vector<Box> sampling_region;  ///< one per side: where targets are, arm base frame
+};
+
+/// Kinematic limits of the arm joints, one entry a joint.
+struct JointLimits {
+  Configuration lower;         ///< rad
+  Configuration upper;         ///< rad
+  Configuration velocity;      ///< rad/s
+  Configuration acceleration;  ///< rad/s²
+};
+
+/// Kinematics of an arm with a camera on a trolley. Immutable, so safe to share between threads.
+class RobotModel {
+ public:
+  /// Checks that the description is one tree, that the setup's names are in it with the right
+  /// types, that the arm joints have finite limits, and that home states lie within them. The error
+  /// names what is wrong.
+  [[nodiscard]] static Expected<RobotModel> make(RobotDescription description, RobotSetup setup);
+
+  [[nodiscard]] int dof() const { return static_cast<int>(arm_chain_.size()); }
+  [[nodiscard]] const JointLimits& limits() const { return limits_; }
+  [[nodiscard]] bool within_limits(const Configuration& q) const;
+  [[nodiscard]] const RobotSetup& setup() const { return setup_; }
+  [[nodiscard]] const RobotDescription& description() const { return description_; }
+
+  /// Limits of the trolley's axes (m, m/s, m/s²); a fixed axis has lower = upper = 0.
+  [[nodiscard]] const Joint& travel_axis() const { return travel_axis_; }
+  [[nodiscard]] const Joint& lift_axis() const { return lift_axis_; }
+
+  /// Pose of the arm base frame, in which boxes, views and home states are given.
+  [[nodiscard]] Pose T_world_base(const TrolleyState& trolley) const;
+
+  /// Forward kinematics to the camera's optical frame.
+  [[nodiscard]] Pose T_base_camera(const Configuration& q) const;
+
+  /// A joint's axis as a line in the arm base frame.
+  struct AxisLine {
+    Vec3 point = Vec3::Zero();
+    Vec3 direction = Vec3::UnitZ();
+  };
+  /// The axes of the arm joints, base to tool, at `q`.
+  [[nodiscard]] std::vector<AxisLine> arm_axes(const Configuration& q) const;
+
+  /// One stretch of the chain: what lies between two joints, seen from the first.
+  struct Hop {
+    int after_joint = 0;         ///< arm joint the stretch starts at
+    Vec3 offset = Vec3::Zero();  ///< from its frame's origin to the next frame's, m
+    Vec3 axis = Vec3::UnitZ();   ///< its axis in the same frame
+  };
+  /// The stretches from the first arm joint to `link`, fixed joints on the way included.
+  [[nodiscard]] std::vector<Hop> arm_hops(int link) const;
+
+  /// Links in an order in which parents come before children; link indices below refer to it.
+  [[nodiscard]] const std::vector<Link>& links() const { return links_; }
+  /// Index of a link; −1 when there is none of that name.
+  [[nodiscard]] int link_index(std::string_view name) const;
+  /// Number of arm joints between the base and the link: it moves with joints 0 … n − 1. 0: it does
+  /// not move with the arm.
+  [[nodiscard]] int arm_joints_before(int link) const { return nodes_[link].arm_joints_before; }
+  /// Whether the two links can collide: rigidly joined and disabled pairs cannot.
+  [[nodiscard]] bool pair_checked(int link_a, int link_b) const;
+
+  /// World poses of all links; `T_world_link` is resized to links().size().
+  void link_poses(const Configuration& q, const TrolleyState& trolley,
+                  std::vector<Pose>& T_world_link) const;
+  /// Only the links that move with the arm; the others must hold the poses of link_poses().
+  void arm_link_poses(const Configuration& q, std::vector<Pose>& T_world_link) const;
+
+  /// A named home state; the name must exist (see has_home).
+  [[nodiscard]] const Configuration& home(std::string_view name) const;
+  [[nodiscard]] bool has_home(std::string_view name) const;
+  /// Boxes of a side (1, 2, …) in the arm base frame; the side must exist.
+  [[nodiscard]] const Box& workspace(int side) const;
+  [[nodiscard]] const Box& sampling_region(int side) const;
+  [[nodiscard]] int sides() const { return static_cast<int>(setup_.workspace.size()); }
+
+ private:
+  enum class Drive { kNone, kArm, kTravel, kLift };
+  struct Node {  // one link and the joint that carries it
+    int parent = -1;
+    Pose T_parent_joint = Pose::Identity();
+    Vec3 axis = Vec3::UnitZ();
+    JointType type = JointType::kFixed;
+    Drive drive = Drive::kNone;
+    int arm_joint = -1;
+    int arm_joints_before = 0;
+    int rigid_group = 0;
+  };
+
+  RobotModel() = default;
+  [[nodiscard]] Expected<void> order_links();
+  [[nodiscard]] Expected<void> assign_roles();
+  [[nodiscard]] Expected<void> check_setup() const;
+  void collect_pairs();
+  [[nodiscard]] Pose T_parent_link(const Node& node, const Configuration& q,
+                                   const TrolleyState& trolley) const;
+
+  RobotDescription description_;
+  RobotSetup setup_;
+  JointLimits limits_;
+  Joint travel_axis_;
+  Joint lift_axis_;
+  std::vector<Link> links_;
+  std::vector<Node> nodes_;       // parallel to links_
+  std::vector<int> arm_chain_;    // nodes carried by the arm joints, base to tool
+  std::vector<int> camera_path_;  // nodes from below the base link to the camera frame
+  std::vector<int> base_path_;    // nodes from the root to the base link
+  std::vector<char> pair_checked_;
+};
+
+/// Σ|Δq|, rad: the joint distance of the paper's thresholds.
+[[nodiscard]] double joint_distance(const Configuration& a, const Configuration& b);
+
+}  // namespace canopeer

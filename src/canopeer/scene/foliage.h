@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "canopeer/base/rng.h"
+#include "canopeer/scene/fruit_cluster.h"
+#include "canopeer/scene/leaf.h"
+#include "canopeer/scene/shoot.h"
+
+namespace canopeer {
+
+/// A leaf at its place on a shoot, plant frame.
+struct PlacedLeaf {
+  LeafForm form;
+  Vec3 node = Vec3::Zero();
+  double below_tip_m = 0.0;
+};
+
+/// Places the kind's leaves on its shoots: one a node, pairs near the tips, divergence angles and
+/// internodes as measured; sizes are scaled to the kind's leaf area. Leaves turn away from fruits
+/// they would cut.
+std::vector<PlacedLeaf> place_leaves(const PlantKind& kind, const std::vector<Shoot>& shoots,
+                                     const std::vector<HangingFruit>& fruits, Rng& rng);
+
+}  // namespace canopeer

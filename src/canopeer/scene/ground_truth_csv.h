@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "canopeer/scene/scene.h"
+
+namespace canopeer {
+
+/// One row per fruit in the order of ids, with the header
+/// `id,class,counted,x_m,y_m,z_m,length_m,diameter_m,volume_cm3,surface_cm2,plant`;
+/// class is green, turning or ripe, counted 1 or 0.
+std::string ground_truth_csv(const Scene& scene);
+
+}  // namespace canopeer

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "canopeer/base/rng.h"
+#include "canopeer/scene/fruit_cluster.h"
+#include "canopeer/scene/plant_kind.h"
+#include "canopeer/scene/scene.h"
+#include "canopeer/scene/shoot.h"
+
+namespace canopeer {
+
+/// A sweet pepper plant in its own frame: z up, origin at the stem base. Fruit ids and
+/// ScenePart::fruit count from 0 within the plant; ScenePart::plant is 0.
+struct Plant {
+  std::vector<ScenePart> parts;
+  std::vector<FruitTruth> fruits;
+  std::vector<Shoot> shoots;
+  std::vector<HangingFruit> hanging;  ///< hanging[i] is fruits[i]
+};
+
+/// Grows a plant whose shoots, leaves and fruits follow the measured distributions. The numbers of
+/// leaves and fruits are exactly the kind's. About three quarters of the fruits hang on the −x
+/// side; leaf azimuths are uniform.
+Plant grow_plant(const PlantKind& kind, Rng& rng);
+
+}  // namespace canopeer

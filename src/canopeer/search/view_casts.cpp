@@ -1,0 +1,20 @@
+#include "canopeer/search/view_casts.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+namespace canopeer {
+
+void ensure_casts(ViewGraph& graph, const std::vector<NodeId>& nodes, const VoxelMap& map,
+                  const ViewFan& fan, WorkMeter& work) {
+  std::vector<NodeId> missing;
+  for (const NodeId id : nodes) {
+    if (!graph.node(id).cast) missing.push_back(id);
+  }
+  work.add(Work::view_cast, static_cast<std::int64_t>(missing.size()));
+  tbb::parallel_for(std::size_t{0}, missing.size(), [&](std::size_t i) {
+    ViewNode& node = graph.node(missing[i]);
+    node.cast = cast_view(map, node.view.T_world_camera, fan);
+  });
+}
+
+}  // namespace canopeer

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "canopeer/robot/exact_checker.h"
+#include "canopeer/scene/scene.h"
+
+namespace canopeer {
+
+/// What a motion ran into.
+struct Verdict {
+  bool collision =
+      false;  ///< the robot itself, the structure, or voxels mapped when the motion started
+  bool plant_contact = false;  ///< a plant
+};
+
+/// Looks at motions as they are executed, with FCL on the true geometry of robot, structure and
+/// plants.
+class MotionJudge {
+ public:
+  /// `step_m`: between two states looked at no point of the arm moves farther. `robot` outlives the
+  /// judge.
+  MotionJudge(const RobotModel& robot, const Scene& scene, double step_m = 0.01);
+
+  /// Motion along the waypoints with the trolley at rest; `map`: what is known when it starts, or
+  /// null.
+  [[nodiscard]] Verdict judge(const std::vector<Configuration>& waypoints,
+                              const TrolleyState& trolley, const VoxelMap* map) const;
+  /// The exact checker with the scene's structure in it.
+  [[nodiscard]] const ExactChecker& checker() const { return checker_; }
+
+ private:
+  double step_rad_;
+  ExactChecker checker_;
+  MeshObstacles plants_;
+};
+
+}  // namespace canopeer

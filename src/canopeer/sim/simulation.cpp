@@ -1,0 +1,148 @@
+#include "canopeer/sim/simulation.h"
+
+#include <algorithm>
+
+#include "canopeer/base/rng.h"
+#include "canopeer/render/renderer.h"
+#include "canopeer/robot/straight_timing.h"
+
+namespace canopeer {
+
+/// The one world all ports act on.
+struct Simulation::State {
+  const RobotModel& robot;
+  SimulationOptions options;
+  Renderer renderer;
+  MotionJudge judge;
+  const VoxelMap* map = nullptr;
+  double now_s = 0.0;
+  Configuration q;
+  TrolleyState trolley;
+};
+
+class Simulation::SimClock : public Clock {
+ public:
+  explicit SimClock(State& state) : state_(state) {}
+  double now_s() const override { return state_.now_s; }
+  void charge(double compute_s) override { state_.now_s += compute_s; }
+  void sleep(double seconds) override { state_.now_s += seconds; }
+
+ private:
+  State& state_;
+};
+
+class Simulation::SimArm : public Arm {
+ public:
+  explicit SimArm(State& state) : state_(state), rng_(state.options.seed, "arrival error") {}
+
+  Configuration configuration() const override { return state_.q; }
+
+  Expected<double> start(const std::vector<Configuration>& waypoints) override {
+    if (waypoints.empty() || joint_distance(waypoints.front(), state_.q) > 1e-6) {
+      return fail("a motion must begin where the arm is");
+    }
+    double duration_s = 0.0;
+    for (std::size_t i = 0; i < waypoints.size(); ++i) {
+      if (!state_.robot.within_limits(waypoints[i]))
+        return fail("a waypoint is beyond the joint limits");
+      if (i > 0) duration_s += motion_time(waypoints[i - 1], waypoints[i], state_.robot.limits());
+    }
+    // Judged now, on the map as it is when the motion starts.
+    const Verdict verdict = state_.judge.judge(waypoints, state_.trolley, state_.map);
+    outcome_ = {with_arrival_error(waypoints.back()), verdict.collision, verdict.plant_contact};
+    end_s_ = state_.now_s + duration_s;
+    return duration_s;
+  }
+
+  Expected<MotionOutcome> finish() override {
+    state_.now_s = std::max(state_.now_s, end_s_);
+    state_.q = outcome_.q;
+    return outcome_;
+  }
+
+ private:
+  Configuration with_arrival_error(Configuration q) {
+    if (state_.options.arrival_error_rad <= 0.0) return q;
+    const JointLimits& limits = state_.robot.limits();
+    for (Eigen::Index i = 0; i < q.size(); ++i) {
+      q[i] = std::clamp(q[i] + rng_.normal(0.0, state_.options.arrival_error_rad), limits.lower[i],
+                        limits.upper[i]);
+    }
+    return q;
+  }
+
+  State& state_;
+  Rng rng_;
+  MotionOutcome outcome_;
+  double end_s_ = 0.0;
+};
+
+class Simulation::SimTrolley : public Trolley {
+ public:
+  explicit SimTrolley(State& state) : state_(state) {}
+  TrolleyState state() const override { return state_.trolley; }
+
+  /// One axis after the other, as the linear drives of such trolleys do.
+  Expected<void> move_to(const TrolleyState& goal) override {
+    const Joint& travel = state_.robot.travel_axis();
+    const Joint& lift = state_.robot.lift_axis();
+    const auto outside = [](const Joint& axis, double value) {
+      return value < axis.lower - 1e-9 || value > axis.upper + 1e-9;
+    };
+    if (outside(travel, goal.travel_m) || outside(lift, goal.lift_m)) {
+      return fail("the goal is beyond the axes' limits (travel " + std::to_string(goal.travel_m) +
+                  " m, lift " + std::to_string(goal.lift_m) + " m)");
+    }
+    const auto time = [](const Joint& axis, double distance) {
+      return distance == 0.0
+                 ? 0.0
+                 : axis_motion_time(distance, axis.velocity_limit, axis.acceleration_limit);
+    };
+    state_.now_s += time(travel, std::abs(goal.travel_m - state_.trolley.travel_m)) +
+                    time(lift, std::abs(goal.lift_m - state_.trolley.lift_m));
+    state_.trolley = goal;
+    return {};
+  }
+
+ private:
+  State& state_;
+};
+
+class Simulation::SimCamera : public Camera {
+ public:
+  explicit SimCamera(State& state) : state_(state) {}
+
+  Expected<RgbdFrame> capture() override {
+    RgbdFrame frame;
+    frame.time_s = state_.now_s;
+    frame.intrinsics = state_.options.camera;
+    frame.T_world_camera =
+        state_.robot.T_world_base(state_.trolley) * state_.robot.T_base_camera(state_.q);
+    RenderedView view = state_.renderer.render(frame.intrinsics, frame.T_world_camera);
+    frame.depth = std::move(view.depth);
+    frame.color = std::move(view.color);
+    return frame;
+  }
+
+ private:
+  State& state_;
+};
+
+Simulation::Simulation(const RobotModel& robot, const Scene& scene, const Configuration& q,
+                       const TrolleyState& trolley, const SimulationOptions& options)
+    : state_(new State{robot, options, Renderer(scene), MotionJudge(robot, scene), nullptr, 0.0, q,
+                       trolley}),
+      clock_(std::make_unique<SimClock>(*state_)),
+      arm_(std::make_unique<SimArm>(*state_)),
+      trolley_(std::make_unique<SimTrolley>(*state_)),
+      camera_(std::make_unique<SimCamera>(*state_)) {}
+
+Simulation::~Simulation() = default;
+
+Ports Simulation::ports() { return {clock_.get(), arm_.get(), trolley_.get(), camera_.get()}; }
+
+void Simulation::watch_map(const VoxelMap* map) { state_->map = map; }
+
+const MotionJudge& Simulation::judge() const { return state_->judge; }
+
+}  // namespace canopeer

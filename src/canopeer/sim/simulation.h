@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "canopeer/mission/ports.h"
+#include "canopeer/scene/scene.h"
+#include "canopeer/sim/motion_judge.h"
+
+namespace canopeer {
+
+struct SimulationOptions {
+  CameraIntrinsics camera =
+      CameraIntrinsics::from_fov(640, 480, 80.0 / 180.0 * 3.14159265358979323846);
+  /// Standard deviation of where each joint stops beside its goal, rad; the arm knows where it
+  /// stopped.
+  double arrival_error_rad = 0.0;
+  std::uint64_t seed = 1;
+};
+
+/// A robot in a scene, in one process and in simulated time: each port moves one clock. A run is a
+/// sequence of events, as fast as the machine computes them, and the same on any machine.
+class Simulation {
+ public:
+  /// The arm starts in `q`. `robot` and `scene` outlive the simulation.
+  Simulation(const RobotModel& robot, const Scene& scene, const Configuration& q,
+             const TrolleyState& trolley, const SimulationOptions& options);
+  ~Simulation();
+
+  [[nodiscard]] Ports ports();
+  /// The map whose occupied voxels a motion must not touch; null: not judged. Outlives its use.
+  void watch_map(const VoxelMap* map);
+  [[nodiscard]] const MotionJudge& judge() const;
+
+ private:
+  struct State;
+  class SimClock;
+  class SimArm;
+  class SimTrolley;
+  class SimCamera;
+  std::unique_ptr<State> state_;
+  std::unique_ptr<SimClock> clock_;
+  std::unique_ptr<SimArm> arm_;
+  std::unique_ptr<SimTrolley> trolley_;
+  std::unique_ptr<SimCamera> camera_;
+};
+
+}  // namespace canopeer

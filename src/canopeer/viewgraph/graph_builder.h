@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "canopeer/base/compute_cost.h"
+#include "canopeer/viewgraph/view_graph.h"
+#include "canopeer/viewgraph/view_sampler.h"
+
+namespace canopeer {
+
+struct GraphBuilderOptions {
+  ViewSamplerOptions sampler;
+  SimilarityLimits similarity;
+  TargetShares shares;
+  int neighbors = 5;                     ///< k: nearest neighbours a node is joined to
+  double max_edge_distance_rad = 2.0;    ///< Σ|Δq| of an edge at most
+  double max_start_distance_rad = 10.0;  ///< the same for edges of the camera's node
+  int max_nodes = 2000;  ///< the builder rests at this many nodes until targets change
+  int batch = 64;        ///< candidates sampled together (in parallel) before they are joined
+  int max_idle_batches =
+      40;  ///< batches in a row without a new node, then rest until targets change
+};
+
+/// Grows a view graph batch by batch ([Zaenker23], section III-C): samples view poses, skips those
+/// too similar to present ones, joins each to its nearest neighbours by collision-free straight
+/// joint motions, and drops those that join nothing. Candidate i always draws from random stream i,
+/// so the graph does not depend on the number of threads.
+class GraphBuilder {
+ public:
+  /// Keeps pointers to all but the options; they must outlive the builder.
+  GraphBuilder(ViewGraph& graph, const SegmentFrame& frame, const RobotModel& robot,
+               const ArmIk& ik, const GraphBuilderOptions& options, std::uint64_t seed);
+
+  /// New frontiers, re-extracted after a frame: a resting builder wakes. When the graph is full,
+  /// unvisited views whose target is no frontier any more make room, except those in `keep`.
+  void set_targets(const VoxelMap& map, FrontierTargets targets, const std::vector<NodeId>& keep);
+
+  /// Puts the arm's present configuration in as a visited node and joins it to its neighbours.
+  NodeId add_start(const Configuration& q, const CollisionChecker& checker,
+                   const Pose& T_world_camera, WorkMeter& work);
+
+  /// Makes `id` the node the arm stands at. When it leads to fewer than k unvisited views it is
+  /// joined to the nearest ones within `max_start_distance_rad`, and candidates that come later are
+  /// too.
+  void join_start(NodeId id, const CollisionChecker& checker, WorkMeter& work);
+
+  /// One batch of candidates. Returns the number of nodes that stayed.
+  int grow(const VoxelMap& map, const CollisionChecker& checker, WorkMeter& work);
+
+  /// Nothing to do until targets change.
+  [[nodiscard]] bool resting() const;
+
+ private:
+  struct Joint {
+    NodeId a{};
+    NodeId b{};
+    bool free = false;
+    int states_checked = 0;
+  };
+  std::vector<ViewPose> sample_batch(const VoxelMap& map, const CollisionChecker& checker,
+                                     WorkMeter& work);
+  void propose_joints(NodeId id, std::vector<Joint>& joints, WorkMeter& work) const;
+  void check_joints(std::vector<Joint>& joints, const CollisionChecker& checker,
+                    WorkMeter& work) const;
+  void connect(const Joint& joint);
+  /// Edges to views not taken yet.
+  [[nodiscard]] int open_ways(NodeId id) const;
+
+  ViewGraph* graph_;
+  const RobotModel* robot_;
+  ViewSampler sampler_;
+  GraphBuilderOptions options_;
+  std::uint64_t seed_;
+  std::uint64_t candidates_ = 0;
+  TargetSampler targets_;
+  int idle_batches_ = 0;
+  NodeId start_;
+};
+
+}  // namespace canopeer

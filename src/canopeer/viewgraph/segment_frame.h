@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+
+#include "canopeer/robot/robot_model.h"
+
+namespace canopeer {
+
+/// Where the robot stands in one segment (a trolley stop, one side, one lift height) and where it
+/// may look.
+struct SegmentFrame {
+  int index = 0;  ///< running number of the segment in the mission
+  TrolleyState trolley;
+  Pose T_world_base = Pose::Identity();
+  Box workspace_base;         ///< camera positions, arm base frame
+  Box sampling_region_world;  ///< target positions, world
+  Configuration home;         ///< rad
+};
+
+}  // namespace canopeer

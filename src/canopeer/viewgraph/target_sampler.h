@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+
+#include "canopeer/base/rng.h"
+#include "canopeer/map/frontier.h"
+#include "canopeer/viewgraph/view_pose.h"
+
+namespace canopeer {
+
+/// How often each kind of frontier is looked at; the three sum to 1.
+struct TargetShares {
+  double roi = 0.5;
+  double occupied = 0.3;
+  double border = 0.2;
+};
+
+struct Target {
+  TargetKind kind = TargetKind::none;
+  Vec3 p_world = Vec3::Zero();
+};
+
+/// Draws target positions from the frontiers of the map ([Zaenker23], section III-B): first a kind
+/// by its share, then a voxel centre uniformly within the kind. A kind without voxels hands over to
+/// the next one, in the order ROI, occupied, border, ROI. Immutable, so thread-safe.
+class TargetSampler {
+ public:
+  TargetSampler() = default;
+  TargetSampler(FrontierTargets targets, double resolution_m, const TargetShares& shares);
+
+  /// Nothing when there is no target of any kind.
+  [[nodiscard]] std::optional<Target> draw(Rng& rng) const;
+  [[nodiscard]] bool empty() const;
+  [[nodiscard]] const FrontierTargets& targets() const { return targets_; }
+
+ private:
+  FrontierTargets targets_;
+  double resolution_m_ = 0.01;
+  TargetShares shares_;
+};
+
+}  // namespace canopeer

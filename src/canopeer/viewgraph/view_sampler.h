@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+
+#include "canopeer/base/compute_cost.h"
+#include "canopeer/base/rng.h"
+#include "canopeer/map/voxel_map.h"
+#include "canopeer/robot/collision_checker.h"
+#include "canopeer/robot/view_ik.h"
+#include "canopeer/viewgraph/segment_frame.h"
+#include "canopeer/viewgraph/target_sampler.h"
+#include "canopeer/viewgraph/view_pose.h"
+
+namespace canopeer {
+
+struct ViewSamplerOptions {
+  double min_target_distance_m = 0.3;  ///< nearest camera position to its target
+  double max_target_distance_m = 0.6;
+  int max_draws = 32;         ///< (target, position) pairs drawn until one is within the distances
+  int max_state_checks = 12;  ///< arm configurations of one view tried for collisions
+};
+
+/// Samples view poses: a camera position in the workspace that sees a target at the right distance,
+/// unoccluded, and an arm configuration that gets the camera there free of collisions ([Zaenker23],
+/// section III-B).
+class ViewSampler {
+ public:
+  /// Keeps pointers to all but the options; they must outlive the sampler.
+  ViewSampler(const SegmentFrame& frame, const RobotModel& robot, const ArmIk& ik,
+              const ViewSamplerOptions& options);
+
+  /// One candidate; nothing when any of the tests fails. The arm configuration is the
+  /// collision-free one nearest to home, so that neighbouring views are neighbours in joint space
+  /// too. Thread-safe; `work` is counted in the call.
+  [[nodiscard]] std::optional<ViewPose> sample(const VoxelMap& map, const CollisionChecker& checker,
+                                               const TargetSampler& targets, Rng& rng,
+                                               WorkMeter& work) const;
+
+ private:
+  struct Sight {
+    Target target;
+    Vec3 camera_world;
+  };
+  [[nodiscard]] std::optional<Sight> draw_sight(const TargetSampler& targets, Rng& rng) const;
+  [[nodiscard]] std::optional<Configuration> reach(const Sight& sight,
+                                                   const CollisionChecker& checker,
+                                                   WorkMeter& work) const;
+
+  const SegmentFrame* frame_;
+  const RobotModel* robot_;
+  const ArmIk* ik_;
+  ViewSamplerOptions options_;
+  Pose T_base_world_;
+};
+
+}  // namespace canopeer

@@ -1,0 +1,93 @@
+#include "canopeer/eval/metrics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace canopeer {
+namespace {
+
+std::vector<FruitTruth> four_fruits() {
+  std::vector<FruitTruth> truth(5);
+  for (int i = 0; i < 5; ++i) {
+    truth[i].id = i;
+    truth[i].centre = {1.0 * i, 0, 0.5};
+    truth[i].volume_cm3 = 100.0;
+  }
+  truth[4].counted = false;
+  return truth;
+}
+
+FruitEstimate estimate_at(const Vec3& centre, double volume_cm3) {
+  FruitEstimate estimate;
+  estimate.centre = centre;
+  estimate.volume_cm3 = volume_cm3;
+  return estimate;
+}
+
+ViewEvent view_at(double t_s, const std::vector<Vec3>& centres) {
+  ViewEvent view;
+  view.t_s = t_s;
+  view.planning_s = 0.5;
+  for (const Vec3& centre : centres) view.fruits.push_back({0, centre, 100.0});
+  return view;
+}
+
+RunRecord run() {
+  RunRecord record;
+  record.end_s = 10.0;
+  record.views = {view_at(0.0, {}), view_at(2.0, {{0, 0, 0.5}}),
+                  view_at(4.0, {{0, 0, 0.5}, {1, 0, 0.54}}),
+                  view_at(8.0, {{0, 0, 0.5}, {1, 0, 0.54}, {2, 0, 0.4}})};
+  MotionEvent motion;
+  motion.duration_s = 1.5;
+  motion.joint_path_rad = 2.0;
+  record.motions = {motion, motion, motion};
+  record.motions[1].collision = true;
+  record.motions[2].plant_contact = true;
+  return record;
+}
+
+TEST(Metrics, OfAHandMadeRunAreAsWorkedOutByHand) {
+  const std::vector<FruitEstimate> fruits = {
+      estimate_at({0, 0, 0.5}, 110.0), estimate_at({1, 0, 0.54}, 40.0),
+      estimate_at({2, 0, 0.4}, 80.0), estimate_at({4, 0, 0.5}, 50.0),
+      estimate_at({9, 0, 0.5}, 100.0)};
+  const RunMetrics m = compute_metrics(run(), fruits, four_fruits());
+  EXPECT_EQ(m.fruits_total, 4);
+  EXPECT_EQ(m.detected, 2);
+  EXPECT_EQ(m.detected_paper, 3);
+  EXPECT_EQ(m.ma50, 2);                   // 110 and 80 of 100; 40 is too small
+  EXPECT_EQ(m.false_positives, 2);        // 0.10 m off, and the one at x = 9
+  EXPECT_EQ(m.false_positives_paper, 1);  // the green one's estimate is set aside
+  EXPECT_NEAR(*m.volume_error_mean, (0.1 + 0.6) / 2, 1e-12);
+  EXPECT_NEAR(*m.centre_error_mean_m, 0.02, 1e-12);
+  EXPECT_DOUBLE_EQ(*m.time_to_50pct_s, 4.0);
+  EXPECT_FALSE(m.time_to_80pct_s.has_value());
+  EXPECT_NEAR(m.auc, (2 * 0 + 2 * 1 + 6 * 2) / (10.0 * 4.0), 1e-12);
+  EXPECT_DOUBLE_EQ(m.joint_path_length_rad, 6.0);
+  EXPECT_DOUBLE_EQ(m.motion_time_s, 4.5);
+  EXPECT_DOUBLE_EQ(m.planning_time_s, 2.0);
+  EXPECT_EQ(m.collisions, 1);
+  EXPECT_EQ(m.plant_contacts, 1);
+  EXPECT_EQ(m.views, 4);
+  ASSERT_EQ(m.found.size(), 4U);
+  EXPECT_EQ(m.found[3].detected, 2);
+  EXPECT_EQ(m.found[3].detected_paper, 3);
+  EXPECT_FALSE(m.roi_surface_coverage.has_value());
+}
+
+TEST(Metrics, OfARunThatFoundNothingHaveNoNaN) {
+  for (const auto& truth : {std::vector<FruitTruth>{}, four_fruits()}) {
+    const RunMetrics m = compute_metrics(RunRecord{}, {}, truth);
+    EXPECT_EQ(m.detected, 0);
+    EXPECT_EQ(m.ma50, 0);
+    EXPECT_DOUBLE_EQ(m.auc, 0.0);
+    EXPECT_FALSE(m.time_to_50pct_s.has_value());
+    EXPECT_FALSE(m.volume_error_mean.has_value());
+    EXPECT_FALSE(m.centre_error_mean_m.has_value());
+  }
+}
+
+}  // namespace
+}  // namespace canopeer

@@ -1,0 +1,121 @@
+#include "canopeer/map/view_cast.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "ball_scene.h"
+
+namespace canopeer {
+namespace {
+
+using Voxels = std::set<std::array<int, 3>>;
+
+Voxels as_set(const VoxelSet& voxels) {
+  Voxels set;
+  voxels.for_each([&](const VoxelIndex& v) { set.insert({v.x(), v.y(), v.z()}); });
+  return set;
+}
+
+TEST(ViewCast, FindsTheVoxelsAPlainWalkerFinds) {
+  const VoxelMap map = BallScene::map(1, 2);
+  Rng rng(1, "views");
+  for (int i = 0; i < 20; ++i) {
+    const Pose T_world_camera = BallScene::random_camera(rng);
+    ViewFan fan;
+    fan.columns = 9;
+    fan.rows = 7;
+    Voxels expected;
+    std::set<BlockKey> crossed;
+    for (int row = 0; row < 7; ++row) {
+      for (int column = 0; column < 9; ++column) {
+        const Vec3 end(std::tan(fan.fov_x_rad / 2) * (column / 4.0 - 1.0),
+                       std::tan(fan.fov_y_rad / 2) * (row / 3.0 - 1.0), 1.0);
+        walk_voxels(T_world_camera.translation(), T_world_camera * end, map.resolution_m(),
+                    [&](const VoxelIndex& v) {
+                      crossed.insert(block_key(v));
+                      if (map.occupancy(v) == Occupancy::occupied) return false;
+                      if (map.occupancy(v) == Occupancy::unknown) {
+                        expected.insert({v.x(), v.y(), v.z()});
+                      }
+                      return true;
+                    });
+      }
+    }
+    const ViewCast cast = cast_view(map, T_world_camera, fan);
+    EXPECT_EQ(as_set(cast.unknown), expected) << "view " << i;
+    EXPECT_EQ(cast.unknown.count(), static_cast<std::int64_t>(expected.size()));
+    EXPECT_EQ(cast.touched, std::vector<BlockKey>(crossed.begin(), crossed.end()));
+  }
+}
+
+TEST(ViewCast, SeesNothingBehindAWallAndAllOfAnEmptyMap) {
+  std::vector<VoxelIndex> wall;
+  for (int y = -60; y < 60; ++y) {
+    for (int z = -60; z < 60; ++z) wall.push_back({30, y, z});
+  }
+  const Pose T_world_camera = look_at(Vec3(0.105, 0.001, 0.001), Vec3(1.0, 0.0, 0.0));
+  const ViewCast cast = cast_view(map_of({}, wall), T_world_camera);
+  cast.unknown.for_each([](const VoxelIndex& v) { EXPECT_LT(v.x(), 30); });
+  EXPECT_GT(cast.unknown.count(), 0);
+  EXPECT_GT(cast_view(VoxelMap(), T_world_camera).unknown.count(), cast.unknown.count());
+}
+
+TEST(ViewCast, HoldsUntilACrossedBlockChanges) {
+  const Pose T_world_camera = look_at(Vec3(0.001, 0.001, 0.001), Vec3(1.0, 0.0, 0.0));
+  const ViewCast cast = cast_view(VoxelMap(), T_world_camera);
+  const BlockKey crossed = block_key(voxel_at(Vec3(0.5, 0.0, 0.0), 0.01));
+  const BlockKey behind = block_key(voxel_at(Vec3(-0.5, 0.0, 0.0), 0.01));
+  EXPECT_TRUE(still_valid(cast, {}));
+  EXPECT_TRUE(still_valid(cast, {behind}));
+  std::vector<BlockKey> changed{behind, crossed};
+  std::sort(changed.begin(), changed.end());
+  EXPECT_FALSE(still_valid(cast, changed));
+}
+
+TEST(RayBlocked, ByAnOccupiedVoxelInBetweenButNotByAnIgnoredOne) {
+  const VoxelMap map = map_of({{1, 0, 0}}, {{20, 0, 0}});
+  const Vec3 a(0.005, 0.005, 0.005), b(0.405, 0.005, 0.005), c(0.15, 0.005, 0.005);
+  EXPECT_TRUE(ray_blocked(map, a, b));
+  EXPECT_TRUE(ray_blocked(map, b, a));
+  EXPECT_FALSE(ray_blocked(map, a, c));
+  EXPECT_FALSE(ray_blocked(map, a, b, 0.21));
+  EXPECT_TRUE(ray_blocked(map, a, b, 0.19));
+  EXPECT_FALSE(ray_blocked(map, a, a));
+}
+
+TEST(VoxelSet, UnionLosesNoVoxelAndCountsWhatIsNew) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    Rng rng(seed, "sets");
+    const auto random_set = [&rng] {
+      std::vector<VoxelSet::Block> blocks;
+      for (int b = -6; b < 6; ++b) {
+        if (rng.chance(0.5)) continue;
+        VoxelSet::Block& block = blocks.emplace_back();
+        block.key = pack_block(b % 3, b, -b);
+        for (std::uint64_t& slice : block.mask.slices) {
+          slice = rng.chance(0.3) ? 0 : rng.bits() & rng.bits();
+        }
+        if (rng.chance(0.1)) block.mask = {};
+      }
+      std::reverse(blocks.begin(), blocks.end());
+      return VoxelSet(blocks);
+    };
+    const VoxelSet a = random_set(), b = random_set();
+    VoxelSet both = a;
+    both.merge(b);
+    Voxels expected = as_set(a);
+    expected.merge(as_set(b));
+    EXPECT_EQ(as_set(both), expected) << "seed " << seed;
+    EXPECT_EQ(both.count(), static_cast<std::int64_t>(expected.size()));
+    EXPECT_EQ(a.count_new(b), both.count() - a.count());
+    EXPECT_EQ(both.count_new(a), 0);
+    a.for_each([&](const VoxelIndex& v) { EXPECT_TRUE(both.contains(v)); });
+    EXPECT_FALSE(both.contains({1000, 1000, 1000}));
+  }
+}
+
+}  // namespace
+}  // namespace canopeer

@@ -1,0 +1,161 @@
+#include "canopeer/map/voxel_map.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "ball_scene.h"
+#include "canopeer/map/map_cloud.h"
+#include "canopeer/map/voxel_bounds.h"
+
+namespace canopeer {
+namespace {
+
+double log_odds(double p) { return std::log(p / (1.0 - p)); }
+
+TEST(Block, KeysRoundTripAndSortByZThenYThenX) {
+  for (const VoxelIndex& v : {VoxelIndex(0, 0, 0), VoxelIndex(-1, -8, -9), VoxelIndex(7, 8, -70000),
+                              VoxelIndex(-1, 7, 15)}) {
+    const VoxelIndex origin = block_origin(block_key(v));
+    EXPECT_TRUE(((v - origin).array() >= 0).all() && ((v - origin).array() < kBlockSide).all());
+    VoxelMask mask;
+    mask.set(v);
+    for_each_voxel(block_key(v), mask, [&](const VoxelIndex& w) { EXPECT_EQ(w, v); });
+    EXPECT_EQ(mask.count(), 1);
+  }
+  EXPECT_LT(block_key({100, 100, -1}), block_key({-100, -100, 0}));
+  EXPECT_LT(block_key({100, -1, 0}), block_key({-100, 0, 0}));
+  EXPECT_LT(block_key({-1, 0, 0}), block_key({0, 0, 0}));
+}
+
+TEST(BlockDirectory, FindsWhatWasAddedInOrderThroughGrowth) {
+  BlockDirectory directory(1);
+  for (int i = 0; i < 5000; ++i) {
+    EXPECT_EQ(directory.find_or_add(pack_block(i % 17 - 8, i / 17 - 150, i % 5)),
+              static_cast<std::uint32_t>(i));
+  }
+  for (int i = 0; i < 5000; ++i) {
+    EXPECT_EQ(directory.find(pack_block(i % 17 - 8, i / 17 - 150, i % 5)), i);
+  }
+  EXPECT_FALSE(directory.find(pack_block(9, 9, 9)).has_value());
+}
+
+TEST(VoxelBounds, MaskHoldsTheVoxelsWithCentresInside) {
+  const Box world(Vec3(-0.013, -0.2, 0.031), Vec3(0.0449, 0.07501, 0.05499));
+  const VoxelBounds bounds = VoxelBounds::inside(world, 0.01);
+  for (int z = 0; z < 8; ++z) {
+    for (int y = 0; y < 16; ++y) {
+      for (int x = -8; x < 8; ++x) {
+        const VoxelIndex v(x, y, z);
+        EXPECT_EQ(bounds.mask(block_key(v)).test(v), world.contains(voxel_centre(v, 0.01)));
+      }
+    }
+  }
+  EXPECT_TRUE(VoxelBounds::inside(Box(), 0.01).empty());
+}
+
+// Random updates against a plain map of sums in double precision.
+TEST(VoxelMap, SumsClampsAndCountsLikeAPlainTable) {
+  struct Cell {
+    double occupancy = 0.0, roi = 0.0;
+    bool observed = false, roi_seen = false;
+  };
+  const auto step = [](double& sum, double by) {
+    sum = std::clamp(sum + by, log_odds(0.12), log_odds(0.97));
+  };
+  Rng rng(7, "updates");
+  VoxelMap map;
+  std::map<std::array<int, 3>, Cell> table;
+  for (int round = 0; round < 12; ++round) {
+    std::vector<BlockUpdate> updates;
+    for (int b = 0; b < 6; ++b) {
+      if (rng.chance(0.3)) continue;
+      BlockUpdate& update = updates.emplace_back();
+      update.key = pack_block(b - 3, 2 * b - 5, -b);
+      for_each_voxel(update.key, VoxelMask::all(), [&](const VoxelIndex& v) {
+        const double kind = rng.uniform();
+        Cell& cell = table[{v.x(), v.y(), v.z()}];
+        if (kind < 0.2) {
+          const bool fruit = rng.chance(0.4);
+          update.hit.set(v);
+          (fruit ? update.roi_hit : update.roi_miss).set(v);
+          step(cell.occupancy, log_odds(0.7));
+          step(cell.roi, fruit ? log_odds(0.7) : log_odds(0.4));
+          cell.observed = cell.roi_seen = true;
+        } else if (kind < 0.6) {
+          update.miss.set(v);
+          step(cell.occupancy, log_odds(0.4));
+          cell.observed = true;
+        }
+      });
+    }
+    map.apply(updates);
+  }
+  std::int64_t observed = 0, occupied = 0, roi = 0;
+  for (const auto& [at, cell] : table) {
+    const VoxelIndex v(at[0], at[1], at[2]);
+    const bool is_occupied = cell.observed && cell.occupancy >= 0.0;
+    const bool is_roi = cell.roi_seen && cell.roi >= 0.0;
+    EXPECT_EQ(map.occupancy(v), !cell.observed ? Occupancy::unknown
+                                : is_occupied  ? Occupancy::occupied
+                                               : Occupancy::free);
+    EXPECT_EQ(map.is_roi(v), is_roi);
+    EXPECT_NEAR(map.occupancy_log_odds(v), cell.occupancy, 12 * 2.5e-4);  // rounding of 12 steps
+    EXPECT_NEAR(map.roi_log_odds(v), cell.roi, 12 * 2.5e-4);
+    observed += cell.observed;
+    occupied += is_occupied;
+    roi += is_roi;
+  }
+  EXPECT_EQ(map.observed_voxels(), observed);
+  EXPECT_EQ(map.occupied_voxels(), occupied);
+  EXPECT_EQ(map.roi_voxels(), roi);
+  EXPECT_EQ(map.occupancy({1000, 0, 0}), Occupancy::unknown);
+}
+
+TEST(VoxelMap, ReportsExactlyTheBlocksWhoseMasksChanged) {
+  VoxelMap map;
+  BlockUpdate update;
+  update.key = pack_block(-1, 0, 0);
+  update.miss.set({-1, 0, 0});
+  const UpdateResult first = map.apply({&update, 1});
+  EXPECT_EQ(first.changed, std::vector<BlockKey>{update.key});
+  EXPECT_EQ(first.newly_known, 1);
+  EXPECT_EQ(map.block_version(update.key), 1U);
+  const UpdateResult second = map.apply({&update, 1});
+  EXPECT_TRUE(second.changed.empty());
+  EXPECT_EQ(second.newly_known, 0);
+  EXPECT_EQ(second.updated_voxels, 1);
+  EXPECT_EQ(map.block_version(update.key), 1U);
+}
+
+TEST(VoxelMap, RejectsProbabilitiesThatMakeNoSense) {
+  VoxelMapOptions options;
+  EXPECT_TRUE(options.validate().has_value());
+  options.hit_probability = 0.4;
+  EXPECT_FALSE(options.validate().has_value());
+  options = {};
+  options.resolution_m = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(options.validate().has_value());
+}
+
+TEST(VoxelMap, VisitsOccupiedAndRoiVoxelsOfABoxInOrder) {
+  const VoxelMap map =
+      map_of({{0, 0, 0}}, {{9, 0, 0}, {-1, 0, 0}, {3, 3, 3}, {0, 1, 0}, {50, 0, 0}},
+             {{3, 3, 3}, {-1, 0, 0}});
+  const Box world(Vec3(-0.5, -0.5, -0.5), Vec3(0.2, 0.5, 0.5));
+  std::vector<VoxelIndex> occupied, roi;
+  map.for_each_occupied(world, [&](const VoxelIndex& v) { occupied.push_back(v); });
+  map.for_each_roi(world, [&](const VoxelIndex& v) { roi.push_back(v); });
+  EXPECT_EQ(occupied, (std::vector<VoxelIndex>{{-1, 0, 0}, {0, 1, 0}, {3, 3, 3}, {9, 0, 0}}));
+  EXPECT_EQ(roi, (std::vector<VoxelIndex>{{-1, 0, 0}, {3, 3, 3}}));
+  const PointCloud cloud = occupied_cloud(map);
+  ASSERT_EQ(cloud.points.size(), 5U);
+  EXPECT_TRUE(cloud.points[0].isApprox(Eigen::Vector3f(-0.005F, 0.005F, 0.005F)));
+  EXPECT_EQ(cloud.colors[0], MapCloudOptions{}.roi);
+  EXPECT_EQ(cloud.colors[1], MapCloudOptions{}.other);
+}
+
+}  // namespace
+}  // namespace canopeer

@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "source_tree.h"
+
+namespace canopeer {
+namespace {
+
+using testing_support::IncludeLine;
+using testing_support::includes_under;
+using testing_support::lines_of;
+using testing_support::source_root;
+
+struct HeaderOrigin {
+  std::string_view prefix;   ///< of what stands between the brackets
+  std::string_view package;  ///< of Debian; empty: the C library
+};
+
+/// Where the headers we use come from.
+constexpr HeaderOrigin kOrigins[] = {
+    {"Eigen/", "libeigen3-dev"},
+    {"octomap/", "liboctomap-dev"},
+    {"embree3/", "libembree-dev"},
+    {"fcl/", "libfcl-dev"},
+    {"ompl/", "libompl-dev"},
+    {"kdl/", "liborocos-kdl-dev"},
+    {"urdf_model/", "liburdfdom-headers-dev"},
+    {"urdf_parser/", "liburdfdom-dev"},
+    {"console_bridge/", "libconsole-bridge-dev"},
+    {"opencv2/core", "libopencv-core-dev"},
+    {"opencv2/imgproc", "libopencv-imgproc-dev"},
+    {"nanoflann.hpp", "libnanoflann-dev"},
+    {"tbb/", "libtbb-dev"},
+    {"oneapi/", "libtbb-dev"},
+    {"fmt/", "libfmt-dev"},
+    {"yaml-cpp/", "libyaml-cpp-dev"},
+    {"CLI/", "libcli11-dev"},
+    {"nlohmann/", "nlohmann-json3-dev"},
+    {"tinyxml2.h", "libtinyxml2-dev"},
+    {"png.h", "libpng-dev"},
+    {"tl/", "libexpected-dev"},
+    {"gtest/", "libgtest-dev"},
+    {"benchmark/", "libbenchmark-dev"},
+    {"sys/", ""},
+    {"unistd.h", ""},
+    {"fcntl.h", ""},
+    {"dlfcn.h", ""},
+};
+
+/// The standard library's headers have neither a folder nor an ending.
+bool is_standard(const std::string& header) {
+  return header.find_first_of("/.") == std::string::npos;
+}
+
+std::optional<std::string_view> package_of(const std::string& header) {
+  for (const HeaderOrigin& origin : kOrigins) {
+    if (header.rfind(origin.prefix, 0) == 0) return origin.package;
+  }
+  return std::nullopt;
+}
+
+/// One package a line; `#` begins a comment.
+std::set<std::string> listed_packages() {
+  std::set<std::string> packages;
+  for (std::string line : lines_of(source_root() / "packages.txt")) {
+    line.resize(std::min(line.find('#'), line.size()));
+    const std::size_t first = line.find_first_not_of(" \t");
+    if (first == std::string::npos) continue;
+    packages.insert(line.substr(first, line.find_last_not_of(" \t") - first + 1));
+  }
+  return packages;
+}
+
+std::vector<IncludeLine> third_party_includes() {
+  std::vector<IncludeLine> all;
+  for (const char* dir : {"src", "apps", "tests", "bench"}) {
+    for (IncludeLine& include : includes_under(dir)) {
+      if (!include.quoted && !is_standard(include.header)) all.push_back(std::move(include));
+    }
+  }
+  return all;
+}
+
+TEST(Packages, EveryThirdPartyHeaderComesFromAListedPackage) {
+  const std::set<std::string> listed = listed_packages();
+  for (const IncludeLine& include : third_party_includes()) {
+    const auto package = package_of(include.header);
+    ASSERT_TRUE(package.has_value()) << include.where() << ": where does <" << include.header
+                                     << "> come from? Say so in kOrigins";
+    if (package->empty()) continue;
+    EXPECT_EQ(listed.count(std::string(*package)), 1U)
+        << include.where() << ": " << *package << " is missing in packages.txt";
+  }
+}
+
+TEST(Packages, EveryListedLibraryIsUsed) {
+  std::set<std::string> used;
+  for (const IncludeLine& include : third_party_includes()) {
+    used.insert(std::string(package_of(include.header).value_or("")));
+  }
+  for (const std::string& package : listed_packages()) {
+    const bool library = package.size() > 4 && package.substr(package.size() - 4) == "-dev";
+    if (library) {
+      EXPECT_EQ(used.count(package), 1U) << package << " is listed but nothing uses it";
+    }
+  }
+}
+
+TEST(Packages, ToolsTheBuildNeedsAreListed) {
+  const std::set<std::string> listed = listed_packages();
+  for (const char* tool : {"g++", "cmake", "ninja-build"})
+    EXPECT_EQ(listed.count(tool), 1U) << tool;
+}
+
+}  // namespace
+}  // namespace canopeer

@@ -1,0 +1,106 @@
+#include "canopeer/report/report.h"
+
+#include <gtest/gtest.h>
+#include <tinyxml2.h>
+
+#include "canopeer/base/atomic_file.h"
+#include "synthetic_run.h"
+
+namespace canopeer {
+namespace {
+
+using testing_support::SyntheticRunOptions;
+
+/// The page of a synthetic run; the directory stays for a look at it.
+std::string page_of(const std::string& name, const SyntheticRunOptions& options) {
+  const auto dir = std::filesystem::path(testing::TempDir()) / ("canopeer_report_" + name);
+  testing_support::write_synthetic_run(dir, options);
+  const Expected<void> written = write_report(dir);
+  EXPECT_TRUE(written.has_value()) << written.error().message;
+  return *read_file(dir / "report.html");
+}
+
+bool has(const std::string& page, const std::string& text) {
+  return page.find(text) != std::string::npos;
+}
+
+void expect_sound(const std::string& page) {
+  EXPECT_FALSE(has(page, "nan")) << page.substr(page.find("nan") - 80, 160);
+  EXPECT_FALSE(has(page, "<script"));
+  EXPECT_FALSE(has(page, "src=\"http"));
+  EXPECT_FALSE(has(page, "href="));
+  EXPECT_FALSE(has(page, "synthetic <row>")) << "names from files must be escaped";
+}
+
+TEST(Report, ShowsAWholeRunWithItsGroundTruth) {
+  const std::string page = page_of("full", {});
+  expect_sound(page);
+  for (const char* part : {"<small>of 47</small>", "Fruits over time", "Fruit map",
+                           "Time between two views", "Where the time goes", "stop 4, side 2",
+                           "Row from above", "look_ahead_rad", "All figures"}) {
+    EXPECT_TRUE(has(page, part)) << part;
+  }
+  EXPECT_FALSE(has(page, "interrupted"));
+}
+
+TEST(Report, SameDirectoryGivesTheSamePage) { EXPECT_EQ(page_of("same", {}), page_of("same", {})); }
+
+TEST(Report, WorksForAnInterruptedRun) {
+  const std::string page = page_of("interrupted", {.interrupted = true});
+  expect_sound(page);
+  EXPECT_TRUE(has(page, "This run was interrupted"));
+  EXPECT_TRUE(has(page, "5 of 8 segments"));
+}
+
+TEST(Report, WorksWithoutFruitsAndWithoutGroundTruth) {
+  for (const bool truth : {false, true}) {
+    const std::string page = page_of("none", {.segments = 1, .truth = truth, .fruits = false});
+    expect_sound(page);
+    EXPECT_TRUE(has(page, "No fruit was reported"));
+  }
+  const std::string page = page_of("real", {.truth = false});
+  expect_sound(page);
+  EXPECT_TRUE(has(page, "fruits reported"));
+  EXPECT_FALSE(has(page, "within 20 cm"));
+}
+
+TEST(Report, WorksForARunThatWasKilledAtOnce) {
+  const auto dir = std::filesystem::path(testing::TempDir()) / "canopeer_report_killed";
+  testing_support::write_synthetic_run(dir, {});
+  const std::string record = *read_file(dir / "record");
+  ASSERT_TRUE(write_file(dir / "record", record.substr(0, record.find('\n') + 1)));
+  std::filesystem::remove(dir / "fruits.csv");
+  std::filesystem::remove(dir / "ground_truth.csv");
+  std::filesystem::remove_all(dir / "pictures");
+  ASSERT_TRUE(write_report(dir).has_value());
+  expect_sound(*read_file(dir / "report.html"));
+}
+
+TEST(Report, ErrorsNameTheFileAtFault) {
+  const auto dir = std::filesystem::path(testing::TempDir()) / "canopeer_report_errors";
+  testing_support::write_synthetic_run(dir, {});
+  ASSERT_TRUE(write_file(dir / "fruits.csv", "id,x_m\n0,abc\n"));
+  EXPECT_TRUE(has(write_report(dir).error().message, "fruits.csv:2: 'abc' in column 'x_m'"));
+  std::filesystem::remove(dir / "summary.json");
+  EXPECT_TRUE(has(write_report(dir).error().message, "summary.json: cannot read"));
+}
+
+TEST(Report, DrawingsAreWellFormedXml) {
+  const std::string page = page_of("xml", {});
+  const auto dir = std::filesystem::path(testing::TempDir()) / "canopeer_report_xml";
+  std::size_t drawings = 0;
+  for (std::size_t at = page.find("<svg"); at != std::string::npos;
+       at = page.find("<svg", at + 1)) {
+    const std::size_t end = page.find("</svg>", at) + 6;
+    tinyxml2::XMLDocument document;
+    EXPECT_EQ(document.Parse(page.data() + at, end - at), tinyxml2::XML_SUCCESS)
+        << document.ErrorStr();
+    ++drawings;
+  }
+  EXPECT_EQ(drawings, 6U);
+  tinyxml2::XMLDocument map;
+  EXPECT_EQ(map.LoadFile((dir / "fruit_map.svg").c_str()), tinyxml2::XML_SUCCESS);
+}
+
+}  // namespace
+}  // namespace canopeer
