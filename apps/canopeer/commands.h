@@ -1,15 +1,40 @@
 #pragma once
 
-namespace CLI {
-class App;
-}
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace canopeer::app {
 
-// Each adds its subcommands; the callbacks throw CLI::RuntimeError with the exit status when they
-// do not end well.
-void add_run_command(CLI::App& app);
-void add_report_command(CLI::App& app);
-void add_scene_command(CLI::App& app);
+/// What several commands take to name a mission and change its settings.
+struct MissionArguments {
+  std::string path;
+  std::vector<std::string> settings;  ///< "dotted.key=value"
+  std::optional<std::uint64_t> seed;
+};
+
+struct RunArguments {
+  MissionArguments mission;
+  std::string planner;
+  std::optional<int> segments;
+  std::optional<double> time_per_segment_s;
+  std::string compute_table;
+  int threads = 0;  ///< 0: all cores
+  std::string out;
+  bool quiet = false;
+  bool profile = false;
+};
+
+struct SceneArguments {
+  MissionArguments mission;
+  std::string out;
+};
+
+// The commands. Each ends by returning, or by throwing Stop.
+void run(const RunArguments& arguments);
+void report(const std::string& directory);
+void scene_render(const SceneArguments& arguments);
+void scene_inspect(const SceneArguments& arguments);
 
 }  // namespace canopeer::app

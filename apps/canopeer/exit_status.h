@@ -1,5 +1,8 @@
 #pragma once
 
+#include <type_traits>
+#include <utility>
+
 #include "canopeer/base/expected.h"
 
 namespace canopeer::app {
@@ -7,8 +10,12 @@ namespace canopeer::app {
 /// What the program ends with.
 enum ExitStatus { kDone = 0, kFailed = 1, kBadInput = 2, kInterrupted = 130 };
 
-/// Prints "canopeer: message" on standard error and ends the command with `status`. The one place
-/// where errors end.
+/// Thrown to end a command; everything there is to say has been said.
+struct Stop {
+  ExitStatus status;
+};
+
+/// Prints "canopeer: message" on standard error and throws Stop. The one place where errors end.
 [[noreturn]] void stop_with(ExitStatus status, const Error& error);
 
 /// The value, or the end of the command.

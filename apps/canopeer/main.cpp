@@ -4,26 +4,85 @@
 #include "commands.h"
 #include "exit_status.h"
 
-int main(int argc, char** argv) {
+namespace canopeer::app {
+namespace {
+
+void add_mission(CLI::App& command, MissionArguments& mission) {
+  command.add_option("mission", mission.path, "Mission file (YAML)")->required();
+  command.add_option("--seed", mission.seed, "Seed of everything random");
+  command
+      .add_option("--set", mission.settings, "Override a setting, dotted.key=value (repeatable)")
+      ->expected(1)
+      ->take_all();
+}
+
+void add_run(CLI::App& app, RunArguments& arguments) {
+  CLI::App* command =
+      app.add_subcommand("run", "Run a mission in simulation and write the results");
+  add_mission(*command, arguments.mission);
+  command->add_option("--planner", arguments.planner, "Planner, e.g. vmp");
+  command->add_option("--segments", arguments.segments, "Only the first K segments");
+  command->add_option("--time-per-segment", arguments.time_per_segment_s, "Seconds per segment");
+  command->add_option("--threads", arguments.threads, "Threads at most (0: all cores)")
+      ->check(CLI::Range(0, 1024));
+  command->add_option("--compute-table", arguments.compute_table,
+                      "What computing costs: default, free, or a file");
+  command->add_option("--out", arguments.out, "Directory for the results");
+  command->add_flag("--quiet", arguments.quiet, "Print errors only");
+  command->add_flag("--profile", arguments.profile, "Print where the wall time went");
+  command->callback([&arguments] { run(arguments); });
+}
+
+void add_report(CLI::App& app, std::string& directory) {
+  CLI::App* command = app.add_subcommand("report", "Make report.html of a finished run anew");
+  command->add_option("dir", directory, "The run's directory")->required();
+  command->callback([&directory] { report(directory); });
+}
+
+void add_scene(CLI::App& app, SceneArguments& arguments) {
+  CLI::App* scene = app.add_subcommand("scene", "Look at the world of a mission");
+  scene->require_subcommand(1);
+  CLI::App* render = scene->add_subcommand(
+      "render", "Write pictures of the row and of what the camera sees, and the ground truth");
+  add_mission(*render, arguments.mission);
+  render->add_option("--out", arguments.out, "Directory for the pictures");
+  render->callback([&arguments] { scene_render(arguments); });
+  CLI::App* inspect = scene->add_subcommand("inspect", "Print what is in the world");
+  add_mission(*inspect, arguments.mission);
+  inspect->callback([&arguments] { scene_inspect(arguments); });
+}
+
+int parse_and_run(int argc, char** argv) {
   CLI::App app{
       "Plans where a robot's camera looks next, so that every fruit behind the leaves is found."};
   app.require_subcommand(1);
-  canopeer::app::add_run_command(app);
-  canopeer::app::add_report_command(app);
-  canopeer::app::add_scene_command(app);
+  RunArguments run_arguments;
+  std::string report_directory;
+  SceneArguments scene_arguments;
+  add_run(app, run_arguments);
+  add_report(app, report_directory);
+  add_scene(app, scene_arguments);
   app.add_subcommand("version", "Print the version")->callback([] {
     std::printf("canopeer %s\n", CANOPEER_VERSION);
   });
   try {
     app.parse(argc, argv);
-  } catch (const CLI::RuntimeError& end) {
-    return end.get_exit_code();
   } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error);
-    return code == 0 ? canopeer::app::kDone : canopeer::app::kBadInput;
+    return app.exit(error) == 0 ? kDone : kBadInput;
+  }
+  return kDone;
+}
+
+}  // namespace
+}  // namespace canopeer::app
+
+int main(int argc, char** argv) {
+  try {
+    return canopeer::app::parse_and_run(argc, argv);
+  } catch (const canopeer::app::Stop& stop) {
+    return stop.status;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "canopeer: internal error: %s\n", error.what());
     return canopeer::app::kFailed;
   }
-  return canopeer::app::kDone;
 }

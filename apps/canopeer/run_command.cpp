@@ -11,6 +11,7 @@
 #include "canopeer/mission/mission.h"
 #include "canopeer/sim/simulation.h"
 #include "commands.h"
+#include "exit_status.h"
 #include "mission_arguments.h"
 #include "progress_bar.h"
 #include "run_results.h"
@@ -19,28 +20,16 @@
 namespace canopeer::app {
 namespace {
 
-struct RunArguments {
-  MissionArguments mission;
-  std::string planner;
-  std::optional<std::uint64_t> seed;
-  std::optional<int> segments;
-  std::optional<double> time_per_segment;
-  std::string compute_table;
-  int threads = 0;
-  std::string out;
-  bool quiet = false;
-  bool profile = false;
-
-  [[nodiscard]] Overrides overrides() const {
-    Overrides o;
-    if (!planner.empty()) o.emplace_back("planner", planner);
-    if (seed) o.emplace_back("seed", std::to_string(*seed));
-    if (segments) o.emplace_back("max_segments", std::to_string(*segments));
-    if (time_per_segment) o.emplace_back("time_per_segment_s", std::to_string(*time_per_segment));
-    if (!compute_table.empty()) o.emplace_back("compute_table", compute_table);
-    return o;
+Overrides overrides_of(const RunArguments& arguments) {
+  Overrides o;
+  if (!arguments.planner.empty()) o.emplace_back("planner", arguments.planner);
+  if (arguments.segments) o.emplace_back("max_segments", std::to_string(*arguments.segments));
+  if (arguments.time_per_segment_s) {
+    o.emplace_back("time_per_segment_s", std::to_string(*arguments.time_per_segment_s));
   }
-};
+  if (!arguments.compute_table.empty()) o.emplace_back("compute_table", arguments.compute_table);
+  return o;
+}
 
 RunHeader header_of(const MissionFile& file) {
   RunHeader header;
@@ -86,9 +75,11 @@ void check_sides(const MissionFile& file, const RobotModel& robot) {
   }
 }
 
+}  // namespace
+
 void run(const RunArguments& arguments) {
   const auto begin = std::chrono::steady_clock::now();
-  const MissionFile file = arguments.mission.load(arguments.overrides());
+  const MissionFile file = load(arguments.mission, overrides_of(arguments));
   const RobotModel robot = value_or_stop(load_robot(file.robot), kBadInput);
   const ArmIk ik = value_or_stop(ArmIk::make(robot), kBadInput);
   check_sides(file, robot);
@@ -126,29 +117,8 @@ void run(const RunArguments& arguments) {
   if (!outcome) stop_with(kFailed, outcome.error());
   if (stop) {
     std::fprintf(stderr, "canopeer: interrupted; the results so far are in %s\n", out.c_str());
-    throw CLI::RuntimeError(kInterrupted);
+    throw Stop{kInterrupted};
   }
-}
-
-}  // namespace
-
-void add_run_command(CLI::App& app) {
-  auto arguments = std::make_shared<RunArguments>();
-  CLI::App* command =
-      app.add_subcommand("run", "Run a mission in simulation and write the results");
-  arguments->mission.add_to(*command);
-  command->add_option("--planner", arguments->planner, "Planner, e.g. vmp");
-  command->add_option("--seed", arguments->seed, "Seed of everything random");
-  command->add_option("--segments", arguments->segments, "Only the first K segments");
-  command->add_option("--time-per-segment", arguments->time_per_segment, "Seconds per segment");
-  command->add_option("--threads", arguments->threads, "Threads at most (0: all cores)")
-      ->check(CLI::Range(0, 1024));
-  command->add_option("--compute-table", arguments->compute_table,
-                      "What computing costs: default, free, or a file");
-  command->add_option("--out", arguments->out, "Directory for the results");
-  command->add_flag("--quiet", arguments->quiet, "Print errors only");
-  command->add_flag("--profile", arguments->profile, "Print where the wall time went");
-  command->callback([arguments] { run(*arguments); });
 }
 
 }  // namespace canopeer::app

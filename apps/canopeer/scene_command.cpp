@@ -1,7 +1,5 @@
 #include <cstdio>
 #include <filesystem>
-#include <memory>
-#include <optional>
 
 #include "canopeer/base/atomic_file.h"
 #include "canopeer/config/robot_file.h"
@@ -10,28 +8,13 @@
 #include "canopeer/scene/ground_truth_csv.h"
 #include "canopeer/sensing/png.h"
 #include "commands.h"
+#include "exit_status.h"
 #include "mission_arguments.h"
 
 namespace canopeer::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct SceneArguments {
-  MissionArguments mission;
-  std::optional<std::uint64_t> seed;
-  std::string out;
-
-  [[nodiscard]] MissionFile load() const {
-    Overrides extra;
-    if (seed) extra.emplace_back("seed", std::to_string(*seed));
-    return mission.load(extra);
-  }
-  void add_to(CLI::App& command) {
-    mission.add_to(command);
-    command.add_option("--seed", seed, "Seed of the plants");
-  }
-};
 
 /// Colour of a class in a label picture.
 Rgb label_color(std::uint8_t kind) {
@@ -62,9 +45,11 @@ void write_view(const fs::path& out, const std::string& name, const RenderedView
   value_or_stop(write_png(out / (name + "_labels.png"), labels), kFailed);
 }
 
+}  // namespace
+
 /// The whole row from outside, and what the camera sees at home in each segment.
-void render(const SceneArguments& arguments) {
-  const MissionFile file = arguments.load();
+void scene_render(const SceneArguments& arguments) {
+  const MissionFile file = load(arguments.mission);
   const RobotModel robot = value_or_stop(load_robot(file.robot), kBadInput);
   const Scene scene = make_world(file.world, file.mission.seed);
   const Renderer renderer(scene);
@@ -85,8 +70,8 @@ void render(const SceneArguments& arguments) {
   std::printf("%s\n", out.c_str());
 }
 
-void inspect(const SceneArguments& arguments) {
-  const MissionFile file = arguments.load();
+void scene_inspect(const SceneArguments& arguments) {
+  const MissionFile file = load(arguments.mission);
   const Scene scene = make_world(file.world, file.mission.seed);
   int by_class[3] = {0, 0, 0};
   for (const auto& fruit : scene.fruits) ++by_class[static_cast<int>(fruit.ripeness)];
@@ -97,25 +82,6 @@ void inspect(const SceneArguments& arguments) {
       scene.triangle_count(), scene.counted_fruits(), scene.fruits.size(),
       by_class[static_cast<int>(Ripeness::ripe)], by_class[static_cast<int>(Ripeness::turning)],
       by_class[static_cast<int>(Ripeness::green)]);
-}
-
-}  // namespace
-
-void add_scene_command(CLI::App& app) {
-  CLI::App* scene = app.add_subcommand("scene", "Look at the world of a mission");
-  scene->require_subcommand(1);
-  auto arguments = std::make_shared<SceneArguments>();
-  CLI::App* render_command = scene->add_subcommand(
-      "render",
-      "Write pictures of the row and of what the camera sees at home, and the ground truth");
-  arguments->add_to(*render_command);
-  render_command->add_option("--out", arguments->out, "Directory for the pictures");
-  render_command->callback([arguments] { render(*arguments); });
-
-  auto inspected = std::make_shared<SceneArguments>();
-  CLI::App* inspect_command = scene->add_subcommand("inspect", "Print what is in the world");
-  inspected->add_to(*inspect_command);
-  inspect_command->callback([inspected] { inspect(*inspected); });
 }
 
 }  // namespace canopeer::app

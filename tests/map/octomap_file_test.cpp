@@ -81,6 +81,10 @@ TEST(OctomapFile, ReadsItsOwnFileBackUnchanged) {
       ASSERT_EQ(again->occupancy_log_odds(v), map.occupancy_log_odds(v));
     });
   }
+  const auto bytes = read_file(path);
+  const auto cut = temporary("canopeer_cut.ot");
+  ASSERT_TRUE(write_file(cut, bytes->substr(0, bytes->size() / 2)).has_value());
+  EXPECT_FALSE(read_ot(cut).has_value());
   const auto empty = temporary("canopeer_empty.ot");
   ASSERT_TRUE(write_ot(VoxelMap(), empty).has_value());
   EXPECT_EQ(read_ot(empty)->observed_voxels(), 0);

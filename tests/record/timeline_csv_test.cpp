@@ -27,14 +27,5 @@ TEST(TimelineCsv, HasOneRowPerViewAndLeavesAnUnknownGainEmpty) {
   EXPECT_EQ(*table->number(1, "y_m"), -1.5);
 }
 
-TEST(CsvTable, ErrorsNameFileLineAndColumn) {
-  EXPECT_EQ(CsvTable::parse("a,b\n1,2\n3\n", "f.csv").error().message,
-            "f.csv:3: 1 fields, expected 2 as in the header");
-  const Expected<CsvTable> table = CsvTable::parse("a,b\r\n1, x\r\n", "f.csv");
-  ASSERT_TRUE(table.has_value());
-  EXPECT_EQ(table->number(0, "b").error().message, "f.csv:2: 'x' in column 'b', expected a number");
-  EXPECT_EQ(table->number(0, "c").error().message, "f.csv: column 'c' is missing");
-}
-
 }  // namespace
 }  // namespace canopeer

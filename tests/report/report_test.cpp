@@ -64,16 +64,27 @@ TEST(Report, WorksWithoutFruitsAndWithoutGroundTruth) {
   EXPECT_FALSE(has(page, "within 20 cm"));
 }
 
-TEST(Report, WorksForARunThatWasKilledAtOnce) {
+/// As a killed run leaves it: the first part of its record and nothing else.
+std::string page_of_killed_run(std::size_t record_bytes) {
   const auto dir = std::filesystem::path(testing::TempDir()) / "canopeer_report_killed";
   testing_support::write_synthetic_run(dir, {});
-  const std::string record = *read_file(dir / "record");
-  ASSERT_TRUE(write_file(dir / "record", record.substr(0, record.find('\n') + 1)));
-  std::filesystem::remove(dir / "fruits.csv");
-  std::filesystem::remove(dir / "ground_truth.csv");
-  std::filesystem::remove_all(dir / "pictures");
-  ASSERT_TRUE(write_report(dir).has_value());
-  expect_sound(*read_file(dir / "report.html"));
+  const std::string record = read_file(dir / "record")->substr(0, record_bytes);
+  std::filesystem::remove_all(dir);
+  std::filesystem::create_directories(dir);
+  EXPECT_TRUE(write_file(dir / "record", record));
+  const Expected<void> written = write_report(dir);
+  EXPECT_TRUE(written.has_value()) << written.error().message;
+  return *read_file(dir / "report.html");
+}
+
+TEST(Report, WorksFromTheRecordAloneWhenTheRunWasKilled) {
+  const std::string early = page_of_killed_run(250);
+  expect_sound(early);
+  EXPECT_TRUE(has(early, "This run was interrupted"));
+  const std::string late = page_of_killed_run(200'000);
+  expect_sound(late);
+  EXPECT_TRUE(has(late, "fruits reported"));
+  EXPECT_TRUE(has(late, "Fruit map"));
 }
 
 TEST(Report, ErrorsNameTheFileAtFault) {
@@ -81,8 +92,8 @@ TEST(Report, ErrorsNameTheFileAtFault) {
   testing_support::write_synthetic_run(dir, {});
   ASSERT_TRUE(write_file(dir / "fruits.csv", "id,x_m\n0,abc\n"));
   EXPECT_TRUE(has(write_report(dir).error().message, "fruits.csv:2: 'abc' in column 'x_m'"));
-  std::filesystem::remove(dir / "summary.json");
-  EXPECT_TRUE(has(write_report(dir).error().message, "summary.json: cannot read"));
+  std::filesystem::remove(dir / "record");
+  EXPECT_TRUE(has(write_report(dir).error().message, "record: cannot read"));
 }
 
 TEST(Report, DrawingsAreWellFormedXml) {

@@ -21,12 +21,13 @@ struct FruitMapOptions {
 
   // What is one fruit.
   ShapePrior prior;
-  int min_points = 40;          ///< surface cells a fruit needs; 40 cells of 5 mm are 10 cm²
+  int min_points = 25;          ///< surface cells a fruit needs; 25 cells of 5 mm are 6 cm²
   double min_radius_m = 0.017;  ///< smaller bodies are clips, not fruits
   double max_radius_m = 0.055;  ///< larger bodies are no fruits either
   double max_rms_m = 0.006;     ///< the surface must be about an ellipsoid
-  double min_centre_distance_m = 0.045;  ///< closer centres are one fruit
-  double min_normal_spread = 0.03;       ///< 1 − |mean normal|² below it: a flat thing
+  double min_centre_distance_m = 0.045;   ///< closer centres are one fruit
+  double min_normal_spread = 0.03;        ///< variance of the normals; below it: a flat thing
+  double min_curvature_radius_m = 0.017;  ///< from points and normals alone; below it: a clip
   double max_piece_m = 0.22;    ///< a straight piece longer than this is a pipe, not fruits
   double min_height_m = 0.08;   ///< centres below it (world z) are on the floor
   double id_distance_m = 0.05;  ///< a fruit keeps its id when its centre moves less than this

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "canopeer/fruit/plausibility.h"
 #include "canopeer/fruit/vote_peaks.h"
 
 namespace canopeer {
@@ -12,7 +13,7 @@ namespace {
 constexpr int kRounds = 3;
 constexpr double kGate_m = 0.010;      // a fruit's own points are this near to its ellipsoid
 constexpr double kMinNormalCos = 0.3;  // and face about the same way
-constexpr std::size_t kFitPoints = 250;
+constexpr std::size_t kFitPoints = 160;
 
 /// Shape of the chosen points; many points are thinned evenly, which changes little and saves time.
 ShapeEstimate shape_of(std::span<const SurfacePoint> surface, const std::vector<int>& points,
@@ -61,12 +62,6 @@ void refit(std::span<const SurfacePoint> surface, const FruitMapOptions& options
   }
 }
 
-bool plausible_size(const ShapeEstimate& shape, const FruitMapOptions& options) {
-  return shape.radius_m >= options.min_radius_m && shape.radius_m <= options.max_radius_m &&
-         shape.half_length_m >= options.min_radius_m &&
-         shape.half_length_m <= 1.3 * options.max_radius_m;
-}
-
 /// The two as one fruit, when one ellipsoid explains both.
 std::optional<SeparatedFruit> as_one(std::span<const SurfacePoint> surface, const SeparatedFruit& a,
                                      const SeparatedFruit& b, const FruitMapOptions& options) {
@@ -107,21 +102,6 @@ void merge_coinciding(std::span<const SurfacePoint> surface, const FruitMapOptio
   }
 }
 
-/// 1 − |mean normal|²: 0 for a plane, 0.25 for a cap of ± 60°.
-double normal_spread(std::span<const SurfacePoint> surface, const std::vector<int>& points) {
-  Vec3 sum = Vec3::Zero();
-  for (const int i : points) sum += surface[i].normal;
-  return 1.0 - (sum / static_cast<double>(points.size())).squaredNorm();
-}
-
-bool is_fruit(std::span<const SurfacePoint> surface, const SeparatedFruit& fruit,
-              const FruitMapOptions& options) {
-  return static_cast<int>(fruit.points.size()) >= options.min_points &&
-         plausible_size(fruit.shape, options) && fruit.shape.rms_m <= options.max_rms_m &&
-         fruit.shape.centre.z() >= options.min_height_m &&
-         normal_spread(surface, fruit.points) >= options.min_normal_spread;
-}
-
 }  // namespace
 
 std::vector<SeparatedFruit> separate_fruits(std::span<const SurfacePoint> surface,
@@ -139,8 +119,9 @@ std::vector<SeparatedFruit> separate_fruits(std::span<const SurfacePoint> surfac
     refit(surface, options, fruits);
     merge_coinciding(surface, options, fruits);
   }
-  std::erase_if(fruits,
-                [&](const SeparatedFruit& fruit) { return !is_fruit(surface, fruit, options); });
+  std::erase_if(fruits, [&](const SeparatedFruit& fruit) {
+    return !is_fruit(surface, fruit.points, fruit.shape, options);
+  });
   return fruits;
 }
 

@@ -1,7 +1,9 @@
 #include "canopeer/fruit/seen_share.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace canopeer {
@@ -25,14 +27,21 @@ std::array<Vec3, kDirections> even_directions() {
 
 double seen_share(const ShapeEstimate& shape, std::span<const SurfacePoint> surface,
                   const std::vector<int>& points) {
-  const std::array<Vec3, kDirections> directions = even_directions();
+  static const std::array<Vec3, kDirections> directions = even_directions();
+  // A few points a direction are plenty.
+  constexpr std::size_t kMaxPoints = 256;
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / kMaxPoints);
   const Vec3 axes(shape.radius_m, shape.radius_m, shape.half_length_m);
   std::array<bool, kDirections> seen{};
-  for (const int i : points) {
-    const Vec3 on_sphere = (surface[i].point - shape.centre).cwiseQuotient(axes);
+  for (std::size_t k = 0; k < points.size(); k += stride) {
+    const Vec3 on_sphere = (surface[points[k]].point - shape.centre).cwiseQuotient(axes);
     int nearest = 0;
-    for (int d = 1; d < kDirections; ++d) {
-      if (on_sphere.dot(directions[d]) > on_sphere.dot(directions[nearest])) nearest = d;
+    double most = -std::numeric_limits<double>::infinity();
+    for (int d = 0; d < kDirections; ++d) {
+      const double along = on_sphere.dot(directions[d]);
+      if (along <= most) continue;
+      most = along;
+      nearest = d;
     }
     seen[nearest] = true;
   }

@@ -14,7 +14,7 @@ using Parameters = Eigen::Matrix<double, 5, 1>;  // centre, radius, half length
 using Normal5 = Eigen::Matrix<double, 5, 5>;
 
 constexpr int kMaxSteps = 15;
-constexpr double kConverged_m = 2e-5;
+constexpr double kConverged_m = 1e-4;
 constexpr double kMinSemiAxis_m = 0.005;
 constexpr double kMaxSemiAxis_m = 0.12;
 constexpr double kClippedDistance_m = 0.01;  // of the reported spread: one stray point is not all
@@ -89,7 +89,7 @@ double clipped_rms(std::span<const SurfacePoint> surface, const ShapeEstimate& s
 
 double ShapeEstimate::radial_distance(const Vec3& p) const {
   const Vec3 q = p - centre;
-  const double f = std::hypot(q.x() / radius_m, q.y() / radius_m, q.z() / half_length_m);
+  const double f = q.cwiseQuotient(Vec3(radius_m, radius_m, half_length_m)).norm();
   return f > 1e-9 ? q.norm() * (1.0 - 1.0 / f) : -std::min(radius_m, half_length_m);
 }
 

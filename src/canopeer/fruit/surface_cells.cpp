@@ -27,25 +27,25 @@ std::optional<Vec3> normal_at(const RgbdFrame& frame, const Mask& fruit, int u0,
                               const FruitMapOptions& options) {
   const CameraIntrinsics& k = frame.intrinsics;
   const double z0 = frame.depth.at(u0, v0);
-  const int half =
-      std::clamp(static_cast<int>(std::lround(options.normal_window_m * k.fx / z0)), 1, 4);
+  int half = std::clamp(static_cast<int>(std::lround(options.normal_window_m * k.fx / z0)), 1, 4);
+  const int step = half > 2 ? 2 : 1;  // of a large window every other pixel is enough
+  half -= half % step;
   Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
   Vec3 b = Vec3::Zero();
   int used = 0;
-  for (int v = std::max(v0 - half, 0); v <= std::min(v0 + half, k.height - 1); ++v) {
-    for (int u = std::max(u0 - half, 0); u <= std::min(u0 + half, k.width - 1); ++u) {
+  for (int v = v0 - half; v <= v0 + half; v += step) {
+    for (int u = u0 - half; u <= u0 + half; u += step) {
+      if (u < 0 || v < 0 || u >= k.width || v >= k.height || fruit.at(u, v) == 0) continue;
       const double z = frame.depth.at(u, v);
-      if (fruit.at(u, v) == 0 || !(z > 0.0) || std::abs(z - z0) > options.max_depth_step_m) {
-        continue;
-      }
+      if (!(z > 0.0) || std::abs(z - z0) > options.max_depth_step_m) continue;
       const Vec3 x((u - u0) / k.fx, (v - v0) / k.fy, 1.0);
       a.noalias() += x * x.transpose();
-      b.noalias() += x / z;
+      b += x / z;
       ++used;
     }
   }
-  const int window = (2 * half + 1) * (2 * half + 1);
-  if (used < std::max(5, window / 2)) return std::nullopt;
+  const int side = 2 * half / step + 1;
+  if (used < std::max(5, side * side / 2)) return std::nullopt;
   const Vec3 local = a.inverse() * b;  // about the pixel's own ray
   const Vec3 ray0 = k.ray(u0, v0);
   Vec3 n(local.x(), local.y(), local.z() - local.x() * ray0.x() - local.y() * ray0.y());

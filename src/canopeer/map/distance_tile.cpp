@@ -56,15 +56,20 @@ bool expand_row(const TileSurroundings& around, int y, int z, std::int16_t far,
                             static_cast<std::size_t>(z / kBlockSide) * around.stride_z;
   const auto slice = static_cast<std::size_t>(z % kBlockSide);
   const int shift = y % kBlockSide * kBlockSide;
-  bool any = false;
-  for (std::size_t b = 0; b < padded.size() / kBlockSide; ++b) {
-    const auto bits = static_cast<unsigned>(blocks[b].slices[slice] >> shift & 0xFF);
-    any = any || bits != 0;
+  const std::size_t count = padded.size() / kBlockSide;
+  const auto row_bits = [&](std::size_t b) {
+    return static_cast<unsigned>(blocks[b].slices[slice] >> shift & 0xFF);
+  };
+  unsigned any = 0;
+  for (std::size_t b = 0; b < count; ++b) any |= row_bits(b);
+  if (any == 0) return false;
+  for (std::size_t b = 0; b < count; ++b) {
+    const unsigned bits = row_bits(b);
     for (unsigned x = 0; x < kBlockSide; ++x) {
       padded[b * kBlockSide + x] = (bits >> x & 1U) != 0 ? std::int16_t{0} : far;
     }
   }
-  return any;
+  return true;
 }
 
 bool any_occupied(const TileSurroundings& around) {

@@ -113,13 +113,13 @@ BlockTargets targets_of(const VoxelMap& map, BlockKey key, bool roi_near) {
 std::vector<BlockKey> blocks_near_roi(const VoxelMap& map) {
   std::vector<BlockKey> near;
   if (map.roi_voxels() == 0) return near;
-  for (const BlockKey key : map.block_keys()) {
-    if (!map.block(key)->roi.any()) continue;
+  map.for_each_block([&](BlockKey key, const BlockMasks& masks) {
+    if (!masks.roi.any()) return;
     const VoxelIndex b = block_index(key);
     for (int i = 0; i < 27; ++i) {
       near.push_back(pack_block(b.x() + i % 3 - 1, b.y() + i / 3 % 3 - 1, b.z() + i / 9 - 1));
     }
-  }
+  });
   std::sort(near.begin(), near.end());
   near.erase(std::unique(near.begin(), near.end()), near.end());
   return near;

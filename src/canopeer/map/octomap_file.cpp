@@ -1,15 +1,15 @@
 #include "canopeer/map/octomap_file.h"
 
-#include <octomap/octomap.h>
-
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <cstring>
-#include <exception>
 #include <locale>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "canopeer/base/atomic_file.h"
@@ -19,6 +19,7 @@ namespace {
 
 constexpr int kTreeDepth = 16;
 constexpr int kKeyOffset = 1 << (kTreeDepth - 1);
+constexpr std::size_t kNodeBytes = sizeof(float) + 1;  // log-odds, and which children there are
 constexpr char kFirstLine[] = "# Octomap OcTree file";
 
 struct CodedBlock {
@@ -63,8 +64,6 @@ class TreeWriter {
   [[nodiscard]] std::size_t nodes() const { return nodes_; }
 
  private:
-  // A node takes 5 bytes: its log-odds and which children it has.
-  static constexpr std::size_t kNodeBytes = sizeof(float) + 1;
   struct Node {
     float log_odds;
     bool leaf;
@@ -166,8 +165,7 @@ Expected<void> write_tree(const VoxelMap& map, const std::filesystem::path& path
   return write_file(path, header.str() + writer.data());
 }
 
-// The resolution the header states; leaves the stream at the first node. (OctoMap's own reader of
-// headers reports to the terminal.)
+// The resolution the header states; leaves the stream at the first node.
 Expected<double> read_header(std::istream& stream) {
   std::string line;
   if (!std::getline(stream, line) || line.rfind(kFirstLine, 0) != 0) {
@@ -189,23 +187,56 @@ Expected<double> read_header(std::istream& stream) {
   return resolution_m;
 }
 
-VoxelMap expanded(const octomap::OcTree& tree, const VoxelMapOptions& options) {
-  VoxelMap map(options);
-  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
-    const octomap::OcTreeKey key = leaf.getIndexKey();
-    const VoxelIndex corner = VoxelIndex(key[0], key[1], key[2]).array() - kKeyOffset;
-    const int side = 1 << (static_cast<unsigned>(kTreeDepth) - leaf.getDepth());
-    const double log_odds = static_cast<double>(leaf->getLogOdds());
+// Reads the nodes of a tree into a map. Checks every byte: OctoMap's own reader recurses without
+// end on a file that was cut off.
+class TreeReader {
+ public:
+  TreeReader(std::string_view data, VoxelMap& map) : data_(data), map_(map) {}
+
+  Expected<void> read() {
+    if (data_.empty()) return {};
+    if (auto done = read_node(VoxelIndex::Constant(-kKeyOffset), kTreeDepth); !done) return done;
+    if (!data_.empty()) return fail("there is more data than the tree needs");
+    return {};
+  }
+
+ private:
+  Expected<void> read_node(const VoxelIndex& corner, int level) {
+    if (data_.size() < kNodeBytes) return fail("the file ends within the tree");
+    float log_odds = 0.0F;
+    std::memcpy(&log_odds, data_.data(), sizeof log_odds);
+    const auto children = static_cast<unsigned char>(data_[sizeof log_odds]);
+    data_.remove_prefix(kNodeBytes);
+    if (children == 0) return set_cube(corner, level, static_cast<double>(log_odds));
+    if (level == 0) return fail("the tree is deeper than 16 levels");
+    for (int i = 0; i < 8; ++i) {
+      if ((children >> i & 1) == 0) continue;
+      const VoxelIndex step = VoxelIndex(i & 1, i >> 1 & 1, i >> 2) * (1 << (level - 1));
+      if (auto done = read_node(corner + step, level - 1); !done) return done;
+    }
+    return {};
+  }
+
+  Expected<void> set_cube(const VoxelIndex& corner, int level, double log_odds) {
+    if (!std::isfinite(log_odds)) return fail("a log-odds is not a number");
+    voxels_ += std::int64_t{1} << (3 * level);
+    if (voxels_ > kMaxVoxels) return fail("the tree holds more than 2^30 voxels");
+    const int side = 1 << level;
     for (int z = 0; z < side; ++z) {
       for (int y = 0; y < side; ++y) {
         for (int x = 0; x < side; ++x) {
-          map.set_occupancy_log_odds(corner + VoxelIndex(x, y, z), log_odds);
+          map_.set_occupancy_log_odds(corner + VoxelIndex(x, y, z), log_odds);
         }
       }
     }
+    return {};
   }
-  return map;
-}
+
+  static constexpr std::int64_t kMaxVoxels = std::int64_t{1} << 30;
+  std::string_view data_;
+  VoxelMap& map_;
+  std::int64_t voxels_ = 0;
+};
 
 }  // namespace
 
@@ -226,13 +257,12 @@ Expected<VoxelMap> read_ot(const std::filesystem::path& path, VoxelMapOptions op
   if (!resolution_m) return fail_in(path.string(), resolution_m.error());
   options.resolution_m = *resolution_m;
   if (const auto valid = options.validate(); !valid) return fail_in(path.string(), valid.error());
-  try {
-    octomap::OcTree tree(options.resolution_m);
-    tree.readData(stream);
-    return expanded(tree, options);
-  } catch (const std::exception& e) {
-    return fail(path.string() + ": " + e.what());
+  VoxelMap map(options);
+  const auto data = std::string_view(*bytes).substr(static_cast<std::size_t>(stream.tellg()));
+  if (const auto done = TreeReader(data, map).read(); !done) {
+    return fail_in(path.string(), done.error());
   }
+  return map;
 }
 
 }  // namespace canopeer

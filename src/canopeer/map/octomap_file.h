@@ -15,8 +15,8 @@ namespace canopeer {
 /// The ROI log-odds as a tree of their own; voxels that never held an end point are not in it.
 [[nodiscard]] Expected<void> write_roi_ot(const VoxelMap& map, const std::filesystem::path& path);
 
-/// Reads the occupancy of an `.ot` file with liboctomap; `options.resolution_m` is replaced by the
-/// file's resolution.
+/// Reads the occupancy of an `.ot` file; `options.resolution_m` is replaced by the file's
+/// resolution. Fails on a file that is cut off or holds no OcTree.
 [[nodiscard]] Expected<VoxelMap> read_ot(const std::filesystem::path& path,
                                          VoxelMapOptions options = {});
 

@@ -88,6 +88,13 @@ class VoxelMap {
   [[nodiscard]] std::vector<BlockKey> block_keys() const;
   [[nodiscard]] std::vector<BlockKey> block_keys(const Box& world) const;
 
+  /// `visit(BlockKey, const BlockMasks&)` for all observed blocks, in the order they were first
+  /// observed.
+  template <typename Visit>
+  void for_each_block(Visit&& visit) const {
+    for (std::size_t slot = 0; slot < keys_.size(); ++slot) visit(keys_[slot], masks_[slot]);
+  }
+
   /// Applies an observation; no key twice. Parallel over blocks, the same result with any number
   /// of threads.
   UpdateResult apply(std::span<const BlockUpdate> updates);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kSamples = 2;  // a side and pixel
 constexpr double kFovY = 26.0 * std::numbers::pi / 180.0;
-constexpr double kFill = 0.96;  // share of the picture the plants' box takes
+constexpr double kFill = 1.08;  // of the picture by the plants' box; its corners are empty
 
 /// How far the corners of a box reach in the picture: −1 … 1 is inside it.
 Eigen::AlignedBox2d projected(const Box& box, const Pose& T_world_camera,

@@ -26,7 +26,7 @@ struct RenderedView {
 struct RenderOptions {
   /// Towards the light, world; any length but 0.
   Vec3 light_direction{0.35, -0.25, 0.9};
-  double ambient = 0.5;             ///< share of the light that comes from everywhere, 0 … 1
+  double ambient = 0.6;             ///< share of the light that comes from everywhere, 0 … 1
   bool shadows = false;             ///< one shadow ray a pixel
   double color_noise = 2.0;         ///< half width of triangular noise per channel, grey levels
   double depth_noise_per_m2 = 0.0;  ///< standard deviation of depth is this · depth²

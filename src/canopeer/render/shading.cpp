@@ -7,7 +7,7 @@
 namespace canopeer {
 namespace {
 
-constexpr float kDirect = 1.3F;  // brightness of a surface square to the light, without ambient
+constexpr float kDirect = 1.4F;  // brightness of a surface square to the light, without ambient
 
 /// How a material answers light.
 struct Finish {

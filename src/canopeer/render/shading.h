@@ -8,7 +8,7 @@ namespace canopeer {
 /// Light of a rendering.
 struct Light {
   Eigen::Vector3f direction;  ///< unit vector towards it, world
-  float ambient = 0.5F;       ///< share that comes from everywhere
+  float ambient = 0.6F;       ///< share that comes from everywhere
 };
 
 /// Colour (0 … 255, may exceed it) of a hit seen along `ray`. Both sides of a surface are lit;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace canopeer {
 namespace {
@@ -31,12 +32,15 @@ std::vector<Item> items_of(const std::vector<FruitVerdict>& verdicts,
         {"<path d=\"M0 -7l7 7l-7 7l-7 -7z\" class=\"solid c2\"/>", "reported, no fruit there"});
   }
   if (has(Verdict::green)) items.push_back({disc("solid c3"), "reported, a green fruit"});
-  if (truth.empty()) return items;
-  items.push_back({disc("truth"), "true fruit"});
-  items.push_back({disc("missed"), "true fruit, not found"});
-  const bool green = std::any_of(truth.begin(), truth.end(),
-                                 [](const FruitTruth& fruit) { return !fruit.counted; });
-  if (green) items.push_back({disc("thin c3"), "green fruit, does not count"});
+  const auto counted = std::count_if(truth.begin(), truth.end(),
+                                     [](const FruitTruth& fruit) { return fruit.counted; });
+  const auto found = std::count_if(verdicts.begin(), verdicts.end(),
+                                   [](const FruitVerdict& v) { return v.truth.has_value(); });
+  if (found > 0) items.push_back({disc("truth"), "true fruit"});
+  if (found < counted) items.push_back({disc("missed"), "true fruit, not found"});
+  if (counted < std::ssize(truth)) {
+    items.push_back({disc("thin c3"), "green fruit, does not count"});
+  }
   return items;
 }
 

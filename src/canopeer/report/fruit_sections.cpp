@@ -42,7 +42,8 @@ FruitMapInput fruit_map_input(const RunFiles& files) {
 
 std::string map_section(const ReportData& data) {
   const FruitMapInput input = fruit_map_input(data.files);
-  constexpr int kWidePx = 860;
+  if (input.fruits.empty() && input.truth.empty() && input.cameras.empty()) return {};
+  constexpr int kWidePx = 880;
   constexpr int kNarrowPx = 332;
   return html_section(
       "Fruit map",

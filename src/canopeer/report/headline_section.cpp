@@ -34,7 +34,7 @@ std::string fruit_cards(const Summary& s) {
 std::string begun_of_planned(const ReportData& data) {
   const int planned = data.files.record.header.segments;
   const int begun = data.files.summary.segments;
-  return begun == planned ? fmt::format("{} segments", planned)
+  return begun == planned ? fmt::format("{} segment{}", planned, planned == 1 ? "" : "s")
                           : fmt::format("{} of {} segments", begun, planned);
 }
 
@@ -58,7 +58,7 @@ std::string headline_section(const ReportData& data) {
   html += card(std::to_string(s.views), "views");
   html += card(std::to_string(s.collisions), "collisions", s.collisions > 0 ? "bad" : "");
   html += card(std::to_string(s.plant_contacts), "contacts with plant parts not seen before");
-  html += card(duration_text(s.wall_time_s), "computing time of this run");
+  if (s.wall_time_s > 0.0) html += card(duration_text(s.wall_time_s), "computing time of this run");
   return html + "</div>\n";
 }
 
@@ -87,7 +87,7 @@ std::string figures_section(const ReportData& data) {
       {"ROI voxels at the end", count_text(s.roi_voxels)},
       {"Joint path length", fmt::format("{:.1f} rad", s.joint_path_length_rad)},
       {"Arm and trolley moving", duration_text(s.motion_time_s)},
-      {"Standing still to plan", duration_text(s.planning_time_s)}};
+      {"Standing still to map and plan", duration_text(s.planning_time_s)}};
   std::string html = "<dl>\n";
   for (const auto& [name, value] : figures) {
     html += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, value);

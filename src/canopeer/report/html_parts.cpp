@@ -14,7 +14,7 @@ std::string html_section(const std::string& title, const std::string& content) {
 }
 
 std::string html_plot(const SvgPlot& plot, int wide_height_px, int narrow_height_px) {
-  constexpr int kWidePx = 860;
+  constexpr int kWidePx = 880;
   constexpr int kNarrowPx = 340;
   return fmt::format("<div class=\"wide\">{}</div>\n<div class=\"narrow\">{}</div>\n",
                      plot.svg(kWidePx, wide_height_px), plot.svg(kNarrowPx, narrow_height_px));

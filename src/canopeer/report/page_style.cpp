@@ -44,6 +44,7 @@ dd { margin: 0; text-align: right; white-space: nowrap; font-variant-numeric: ta
 figure { margin: 0 0 18px; }
 figure img { width: 100%; height: auto; border-radius: 6px; display: block; }
 figcaption { margin-top: 6px; }
+.scroll + .note, .bar + .note { margin-top: 10px; }
 .pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 400px), 1fr)); gap: 16px; }
 details { margin-top: 14px; }
 summary { cursor: pointer; font-weight: 600; padding: 6px 0; }

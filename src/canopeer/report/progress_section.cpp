@@ -40,6 +40,7 @@ void add_reported(const ReportData& data, SvgPlot& plot) {
 }  // namespace
 
 std::string progress_section(const ReportData& data) {
+  if (data.files.record.views.empty()) return {};
   const bool scored = !data.found.empty();
   SvgPlot plot({"Fruits over mission time", "mission time / s",
                 scored ? "fruits found" : "fruits reported"});

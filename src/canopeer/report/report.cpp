@@ -35,7 +35,7 @@ Expected<void> write_report(const std::filesystem::path& run_dir) {
   if (auto written = write_file(run_dir / "report.html", html_page(title, body)); !written) {
     return written;
   }
-  constexpr int kMapWidthPx = 860;
+  constexpr int kMapWidthPx = 880;
   return write_file(run_dir / "fruit_map.svg",
                     fruit_map_svg(fruit_map_input(data.files), kMapWidthPx, true));
 }

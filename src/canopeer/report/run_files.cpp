@@ -8,6 +8,7 @@
 #include "canopeer/base/csv_table.h"
 #include "canopeer/fruit/fruits_csv.h"
 #include "canopeer/record/record_file.h"
+#include "canopeer/report/killed_run.h"
 
 namespace canopeer {
 namespace {
@@ -102,10 +103,16 @@ Expected<void> into(T& place, Expected<T> read) {
 
 Expected<RunFiles> read_run_files(const std::filesystem::path& run_dir) {
   RunFiles files;
-  Expected<void> read = into(files.summary, read_summary(run_dir / "summary.json"));
-  if (read) read = into(files.record, read_record(run_dir / "record"));
-  if (read && is_there(run_dir / "fruits.csv")) {
-    read = into(files.fruits, read_fruits_csv(run_dir / "fruits.csv"));
+  Expected<void> read = into(files.record, read_record(run_dir / "record"));
+  if (read) {
+    read = is_there(run_dir / "summary.json")
+               ? into(files.summary, read_summary(run_dir / "summary.json"))
+               : into<Summary>(files.summary, summary_from_record(files.record));
+  }
+  if (read) {
+    read = is_there(run_dir / "fruits.csv")
+               ? into(files.fruits, read_fruits_csv(run_dir / "fruits.csv"))
+               : into<std::vector<FruitEstimate>>(files.fruits, fruits_from_record(files.record));
   }
   if (read && is_there(run_dir / "ground_truth.csv")) {
     read = into(files.truth, read_truth(run_dir / "ground_truth.csv"));

@@ -26,7 +26,8 @@ struct RunFiles {
   std::vector<ReportPicture> pictures;  ///< by file name
 };
 
-/// `summary.json` and `record` must be there; the error names the file (and line) at fault.
+/// `record` must be there; a run killed before it wrote `summary.json` and `fruits.csv` is read
+/// from its record alone. The error names the file (and line) at fault.
 [[nodiscard]] Expected<RunFiles> read_run_files(const std::filesystem::path& run_dir);
 
 }  // namespace canopeer

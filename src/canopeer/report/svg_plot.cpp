@@ -164,14 +164,19 @@ std::string SvgPlot::marks_svg(const Frame& f) const {
 
 std::string SvgPlot::lines_svg(const Frame& f) const {
   std::string svg;
+  // An earlier line is wider, so that it still shows where a later one lies on it.
+  double width = 2.0 + 1.8 * static_cast<double>(series_.size());
   for (const Series& series : series_) {
+    width -= 1.8;
     std::string points;
     for (const auto& [x, y] : series.points) {
       if (std::isfinite(x) && std::isfinite(y)) {
         points += fmt::format("{:.1f},{:.1f} ", f.x(x), f.y(y));
       }
     }
-    svg += fmt::format("<polyline class=\"line c{}\" points=\"{}\"/>\n", series.colour % 6, points);
+    svg += fmt::format(
+        "<polyline class=\"line c{}\" style=\"stroke-width:{:.1f}px\" points=\"{}\"/>\n",
+        series.colour % 6, width, points);
   }
   return svg;
 }

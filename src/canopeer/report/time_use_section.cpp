@@ -28,6 +28,12 @@ std::string share_bar(const std::vector<Share>& shares, double total_s) {
   return bar + "</div>\n" + key + "</ul>\n";
 }
 
+/// "view_cast" → "view cast"
+std::string work_label(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return escape_html(name);
+}
+
 std::string work_table(const std::vector<WorkItem>& work) {
   if (work.empty()) return {};
   double total_s = 0.0;
@@ -36,7 +42,7 @@ std::string work_table(const std::vector<WorkItem>& work) {
   for (const WorkItem& item : work) {
     const double each_us =
         item.count > 0 ? 1e6 * item.seconds / static_cast<double>(item.count) : 0.0;
-    rows.push_back({escape_html(item.name), count_text(item.count),
+    rows.push_back({work_label(item.name), count_text(item.count),
                     fmt::format("{:.2f}", item.seconds), fmt::format("{:.2f}", each_us),
                     fmt::format("{:.1f} %", total_s > 0.0 ? 100.0 * item.seconds / total_s : 0.0)});
   }
@@ -55,8 +61,8 @@ std::string time_use_section(const ReportData& data) {
   const double total_s = s.motion_time_s + s.planning_time_s + rest_s;
   return html_section("Where the time goes",
                       share_bar({{"moving", "b0", s.motion_time_s},
-                                 {"standing still to plan", "b1", s.planning_time_s},
-                                 {"frames, mapping and waiting", "b5", rest_s}},
+                                 {"standing still to map and plan", "b1", s.planning_time_s},
+                                 {"the rest", "b5", rest_s}},
                                 total_s) +
                           work_table(data.files.record.work));
 }

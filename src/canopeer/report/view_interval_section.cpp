@@ -17,7 +17,7 @@ std::string view_interval_section(const ReportData& data) {
   if (all.empty()) return {};
   SvgPlot plot({"Time between two views", "segment", "time between two views / s"});
   plot.add_box("all", 0, sample_spread(all));
-  if (by_segment.size() <= kMostBoxes) {
+  if (by_segment.size() > 1 && by_segment.size() <= kMostBoxes) {
     for (std::size_t s = 0; s < by_segment.size(); ++s) {
       plot.add_box(std::to_string(data.files.record.segments[s].segment + 1), 5,
                    sample_spread(by_segment[s]));

@@ -13,7 +13,7 @@ namespace {
 constexpr double kFarM = 0.15;
 
 /// Bounds on self-clearances above this are good enough for an edge.
-constexpr double kRefineBelowM = 0.08;
+constexpr double kRefineBelowM = 0.04;
 
 /// With no padding an interval counts as looked at when nothing moves farther than this in it.
 constexpr double kSmallestMotionM = 0.001;

@@ -103,6 +103,17 @@ void turn_away(const std::vector<HangingFruit>& fruits, Rng& rng, PlacedLeaf* le
   }
 }
 
+/// Old leaves near the ground rest on it instead of growing into it: the leaf rises until it does.
+void keep_above_ground(PlacedLeaf* leaf) {
+  constexpr double kGround = 0.004;
+  for (int i = 0; i < 24; ++i) {
+    const Vec3 base = petiole_end(leaf->form, leaf->node);
+    if (make_blade(leaf->form, base).bounds().min().z() > kGround) return;
+    leaf->form.blade_pitch_rad += 0.12;
+    leaf->form.petiole_pitch_rad = std::max(leaf->form.petiole_pitch_rad, 0.04 * i);
+  }
+}
+
 }  // namespace
 
 std::vector<PlacedLeaf> place_leaves(const PlantKind& kind, const std::vector<Shoot>& shoots,
@@ -126,7 +137,11 @@ std::vector<PlacedLeaf> place_leaves(const PlantKind& kind, const std::vector<Sh
     leaves.push_back(leaf);
   }
   scale_to_area(kind.leaf_area_m2, rng, &leaves);
-  for (PlacedLeaf& leaf : leaves) turn_away(fruits, rng, &leaf);
+  for (PlacedLeaf& leaf : leaves) {
+    keep_above_ground(&leaf);
+    turn_away(fruits, rng, &leaf);
+    keep_above_ground(&leaf);
+  }
   return leaves;
 }
 

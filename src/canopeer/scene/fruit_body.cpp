@@ -13,8 +13,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kRings = 22;  // between the poles
 constexpr int kSides = 32;
-constexpr double kBlockiness = 0.85;  // exponent of the profile: 1 is an ellipse, 0 a rectangle
-constexpr double kTopDent = 0.17;     // depth at the axis, half lengths
+constexpr double kBlockiness = 1.0;  // exponent of the profile: 1 is an ellipse, 0 a rectangle
+constexpr double kTopDent = 0.17;    // depth at the axis, half lengths
 constexpr double kLowDent = 0.10;
 
 // 34 measured fruits; the sizes of one fruit go together.
@@ -105,8 +105,8 @@ FruitForm draw_fruit(Ripeness ripeness, Rng& rng) {
         std::clamp(value_at_rank(kNarrow, near_rank()), 0.75 * form.diameter_m, form.diameter_m);
   }
   form.lobes = rng.chance(0.45) ? 3 : 4;
-  form.lobe_depth = rng.uniform(0.16, 0.30);
-  form.taper = rng.uniform(0.12, 0.30);
+  form.lobe_depth = rng.uniform(0.20, 0.34);
+  form.taper = rng.uniform(0.15, 0.32);
   form.lobe_phase_rad = rng.uniform(0.0, 2.0 * kPi);
   return form;
 }

@@ -23,7 +23,11 @@ constexpr std::array<Quantile, 5> kCentreHeight = {
     {{0.0, 0.22}, {0.05, 0.26}, {0.5, 0.38}, {0.95, 0.68}, {1.0, 0.74}}};
 constexpr std::array<Quantile, 5> kShootDistance = {
     {{0.0, 0.025}, {0.05, 0.028}, {0.5, 0.056}, {0.95, 0.071}, {1.0, 0.074}}};
-constexpr double kShareTowardsMinusX = 26.0 / 34.0;
+// Low places are taken more often by other shoots and fruits: they are tried more often, so that
+// the fruits that find room have the measured heights.
+constexpr double kLowRanks = 1.3;
+// Seen from the shoot; as shoots lean, about 26 of 34 are then on the −x side of the plant's base.
+constexpr double kShareTowardsMinusX = 0.85;
 
 /// Two upright blocky bodies, taken as superellipsoids with exponent 3 around both their sizes.
 bool bodies_apart(const HangingFruit& a, const HangingFruit& b) {
@@ -41,7 +45,7 @@ std::optional<HangingFruit> try_hang(const std::vector<Shoot>& shoots, Ripeness 
   HangingFruit fruit;
   fruit.ripeness = ripeness;
   fruit.form = draw_fruit(ripeness, rng);
-  const double z = value_at_rank(kCentreHeight, rng.uniform());
+  const double z = value_at_rank(kCentreHeight, std::pow(rng.uniform(), kLowRanks));
   if (z - 0.5 * fruit.form.length_m < kLeastTail) return std::nullopt;
   const Shoot& shoot = shoots[rng.index(shoots.size())];
   const double s_pedicel = shoot.reach_height(z + 0.5 * fruit.form.length_m + kPedicelAboveTop);

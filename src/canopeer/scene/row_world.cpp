@@ -11,7 +11,7 @@ namespace canopeer {
 namespace {
 
 constexpr Rgb kFloorColor{124, 112, 100};
-constexpr Rgb kWallColor{206, 214, 204};
+constexpr Rgb kWallColor{236, 242, 234};
 constexpr Rgb kSlabColor{226, 226, 222};
 constexpr int kAttempts = 24;  // to grow a plant clear of its neighbours' fruits
 constexpr double kFruitClearance =

@@ -1,0 +1,138 @@
+#include "canopeer/config/robot_file.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "canopeer/base/atomic_file.h"
+#include "canopeer/config/srdf.h"
+#include "canopeer/config/urdf.h"
+
+namespace canopeer {
+namespace {
+
+const std::filesystem::path kRobot = CANOPEER_SOURCE_DIR "/robots/ur5e_trolley";
+
+std::string shipped(const char* name) { return *read_file(kRobot / name); }
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+/// Loads the shipped robot with one of its files changed.
+std::string message_with(const char* changed_file, const std::string& text) {
+  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+  const auto directory =
+      std::filesystem::temp_directory_path() / (std::string("canopeer_") + test->name());
+  std::filesystem::create_directories(directory);
+  for (const char* name : {"robot.yaml", "ur5e_trolley.urdf", "ur5e_trolley.srdf"})
+    EXPECT_TRUE(
+        write_file(directory / name, name == std::string(changed_file) ? text : shipped(name)));
+  const auto robot = load_robot(directory / "robot.yaml");
+  std::filesystem::remove_all(directory);
+  if (robot) return "accepted";
+  std::string message = robot.error().message;
+  if (message.rfind(directory.string() + "/", 0) == 0)
+    message.erase(0, directory.string().size() + 1);
+  return message;
+}
+
+std::string yaml_message(const std::string& from, const std::string& to) {
+  return message_with("robot.yaml", replaced(shipped("robot.yaml"), from, to));
+}
+
+TEST(RobotFile, ReadsTheShippedRobot) {
+  const auto robot = load_robot(kRobot / "robot.yaml");
+  ASSERT_TRUE(robot) << robot.error().message;
+  EXPECT_EQ(robot->dof(), 6);
+  EXPECT_EQ(robot->sides(), 2);
+  EXPECT_DOUBLE_EQ(robot->limits().acceleration[3], 1.0);
+  EXPECT_NEAR(robot->limits().upper[2], 3.14159265, 1e-8);
+  EXPECT_DOUBLE_EQ(robot->travel_axis().upper, 3.0);
+  EXPECT_DOUBLE_EQ(robot->lift_axis().upper, 2.2);
+}
+
+TEST(RobotFile, NamesFileLineAndKeyOfBadYaml) {
+  EXPECT_EQ(yaml_message("camera_frame:", "camera_fame:"),
+            "robot.yaml:8: unknown key 'camera_fame'; did you mean 'camera_frame'?");
+  EXPECT_EQ(yaml_message("z_m: [0.01, 1.17]", "z_m: [1.17, 0.01]"),
+            "robot.yaml:27: z_m: expected [low, high] with low < high");
+  EXPECT_EQ(yaml_message("xyz_m: [0.0, -2.0, 0.12]", "xyz_m: [0.0, 2 m, 0.12]"),
+            "robot.yaml:15: xyz_m: expected a number in metres, found '2 m'");
+  EXPECT_EQ(yaml_message("xyz_m:", "xyz_mm:"),
+            "robot.yaml:15: unknown key 'xyz_mm'; did you mean 'xyz_m'?");
+  EXPECT_EQ(yaml_message("travel_joint: trolley_travel", "travel_joint: trolley_lift_x"),
+            "robot.yaml: no joint is called 'trolley_lift_x' (trolley axis)");
+  EXPECT_NE(yaml_message("urdf: ur5e", "urdf: ur6e").find("ur6e_trolley.urdf: cannot read"),
+            std::string::npos);
+}
+
+TEST(Urdf, NamesTheLineOfMalformedXml) {
+  const std::string urdf = shipped("ur5e_trolley.urdf");
+  const std::string message = message_with("ur5e_trolley.urdf", replaced(urdf, "</joint>", ""));
+  EXPECT_NE(message.find("ur5e_trolley.urdf:"), std::string::npos) << message;
+  EXPECT_NE(message.find("malformed XML"), std::string::npos) << message;
+}
+
+TEST(Urdf, SaysHowToExpandXacro) {
+  const auto robot = parse_urdf(
+      "<robot name='r' xmlns:xacro='http://x'>\n<xacro:include filename='a'/>\n</robot>", "a.urdf");
+  ASSERT_FALSE(robot);
+  EXPECT_EQ(robot.error().message,
+            "a.urdf:2: <xacro:include> is xacro; expand the file first: xacro a.urdf > robot.urdf");
+}
+
+TEST(Urdf, PassesOnWhatTheParserDislikesWithTheLine) {
+  ::testing::internal::CaptureStderr();
+  const std::string text =
+      "<robot name='r'>\n<link name='a'/>\n<link name='b'/>\n"
+      "<joint name='j' type='revolute'>\n<parent link='a'/><child link='b'/>\n</joint>\n</robot>";
+  const auto robot = parse_urdf(text, "a.urdf");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  ASSERT_FALSE(robot);
+  EXPECT_EQ(robot.error().message.rfind("a.urdf:4: ", 0), 0U) << robot.error().message;
+}
+
+TEST(Urdf, RefusesMeshesAndMimicJointsByName) {
+  const auto mesh = parse_urdf(
+      "<robot name='r'>\n<link name='a'>\n<collision><geometry><mesh filename='a.stl'/>"
+      "</geometry></collision></link></robot>",
+      "a.urdf");
+  ASSERT_FALSE(mesh);
+  EXPECT_EQ(mesh.error().message,
+            "a.urdf:2: link 'a': mesh collision shapes are not supported yet: use boxes, cylinders "
+            "or spheres");
+}
+
+TEST(Urdf, ReadsFramesAxesLimitsAndShapes) {
+  const auto robot = parse_urdf(
+      "<robot name='r'>"
+      "<link name='a'/><link name='b'><collision><origin xyz='1 2 3' rpy='0 0 1.5707963267948966'/>"
+      "<geometry><cylinder radius='0.1' length='0.4'/></geometry></collision></link>"
+      "<joint name='j' type='prismatic'><parent link='a'/><child link='b'/>"
+      "<origin xyz='0 0 1' rpy='0 0 0'/><axis xyz='0 2 0'/>"
+      "<limit lower='-1' upper='2' velocity='3' effort='4'/></joint></robot>",
+      "a.urdf");
+  ASSERT_TRUE(robot) << robot.error().message;
+  const Joint& joint = robot->joints.at(0);
+  EXPECT_EQ(joint.type, JointType::kPrismatic);
+  EXPECT_TRUE(joint.axis.isApprox(Vec3::UnitY()));
+  EXPECT_EQ(joint.lower, -1.0);
+  EXPECT_EQ(joint.upper, 2.0);
+  EXPECT_EQ(joint.velocity_limit, 3.0);
+  const CollisionShape& shape = robot->links.at(1).collision.at(0);
+  EXPECT_EQ(shape.kind, ShapeKind::kCylinder);
+  EXPECT_TRUE((shape.T_link_shape * Vec3::UnitX()).isApprox(Vec3(1, 3, 3)));
+}
+
+TEST(Srdf, NamesTheLineOfAnUnknownLink) {
+  const std::string message =
+      message_with("ur5e_trolley.srdf",
+                   replaced(shipped("ur5e_trolley.srdf"), "\"base_link\"", "\"bass_link\""));
+  EXPECT_EQ(message, "ur5e_trolley.srdf:6: link1: the robot has no link 'bass_link'");
+}
+
+}  // namespace
+}  // namespace canopeer

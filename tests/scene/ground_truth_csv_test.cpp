@@ -1,0 +1,29 @@
+#include "canopeer/scene/ground_truth_csv.h"
+
+#include <gtest/gtest.h>
+
+namespace canopeer {
+namespace {
+
+TEST(GroundTruthCsv, HasOneRowPerFruit) {
+  Scene scene;
+  FruitTruth fruit;
+  fruit.centre = Vec3(-0.75, 0.1, 0.4);
+  fruit.length_m = 0.074;
+  fruit.diameter_m = 0.068;
+  fruit.volume_cm3 = 154.0;
+  fruit.surface_cm2 = 150.0;
+  fruit.plant = 3;
+  scene.fruits.push_back(fruit);
+  fruit.id = 1;
+  fruit.ripeness = Ripeness::green;
+  fruit.counted = false;
+  scene.fruits.push_back(fruit);
+  EXPECT_EQ(ground_truth_csv(scene),
+            "id,class,counted,x_m,y_m,z_m,length_m,diameter_m,volume_cm3,surface_cm2,plant\n"
+            "0,ripe,1,-0.75000,0.10000,0.40000,0.0740,0.0680,154.00,150.00,3\n"
+            "1,green,0,-0.75000,0.10000,0.40000,0.0740,0.0680,154.00,150.00,3\n");
+}
+
+}  // namespace
+}  // namespace canopeer

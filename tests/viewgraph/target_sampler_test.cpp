@@ -1,0 +1,48 @@
+#include "canopeer/viewgraph/target_sampler.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+namespace canopeer {
+namespace {
+
+FrontierTargets targets(int roi, int occupied, int border) {
+  FrontierTargets t;
+  for (int i = 0; i < roi; ++i) t.roi.emplace_back(i, 0, 0);
+  for (int i = 0; i < occupied; ++i) t.occupied.emplace_back(i, 1, 0);
+  for (int i = 0; i < border; ++i) t.border.emplace_back(i, 2, 0);
+  return t;
+}
+
+std::map<TargetKind, int> draw_many(const TargetSampler& sampler, int draws) {
+  Rng rng(1);
+  std::map<TargetKind, int> counts;
+  for (int i = 0; i < draws; ++i) ++counts[sampler.draw(rng)->kind];
+  return counts;
+}
+
+TEST(TargetSampler, DrawsTheKindsByTheirShares) {
+  auto counts = draw_many(TargetSampler(targets(3, 1000, 20), 0.01, {}), 20000);
+  EXPECT_NEAR(counts[TargetKind::roi], 10000, 5 * 71);  // √(n·p·(1−p))
+  EXPECT_NEAR(counts[TargetKind::occupied], 6000, 5 * 65);
+  EXPECT_NEAR(counts[TargetKind::border], 4000, 5 * 57);
+}
+
+TEST(TargetSampler, AnEmptyKindHandsOverToTheNext) {
+  auto no_roi = draw_many(TargetSampler(targets(0, 10, 10), 0.01, {}), 10000);
+  EXPECT_EQ(no_roi[TargetKind::roi], 0);
+  EXPECT_NEAR(no_roi[TargetKind::occupied], 8000, 5 * 40);
+  auto only_roi = draw_many(TargetSampler(targets(5, 0, 0), 0.01, {}), 1000);
+  EXPECT_EQ(only_roi[TargetKind::roi], 1000);
+}
+
+TEST(TargetSampler, GivesVoxelCentresAndNothingWhenThereIsNone) {
+  Rng rng(2);
+  const TargetSampler one(targets(1, 0, 0), 0.01, {});
+  EXPECT_TRUE(one.draw(rng)->p_world.isApprox(Vec3(0.005, 0.005, 0.005)));
+  EXPECT_FALSE(TargetSampler(FrontierTargets{}, 0.01, {}).draw(rng).has_value());
+}
+
+}  // namespace
+}  // namespace canopeer

@@ -1,0 +1,95 @@
+#include "canopeer/viewgraph/view_graph.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "canopeer/base/rng.h"
+
+namespace canopeer {
+namespace {
+
+ViewPose view_at(const Configuration& q) {
+  ViewPose view;
+  view.q = q;
+  return view;
+}
+
+Configuration random_q(Rng& rng) {
+  Configuration q(6);
+  for (int i = 0; i < 6; ++i) q[i] = rng.uniform(-1.0, 1.0);
+  return q;
+}
+
+TEST(ViewGraph, EdgesGoBothWaysAndLeaveWithTheirNode) {
+  ViewGraph graph;
+  const NodeId a = graph.add(view_at(Configuration::Zero(6)));
+  const NodeId b = graph.add(view_at(Configuration::Ones(6)));
+  const NodeId c = graph.add(view_at(-Configuration::Ones(6)));
+  graph.connect(a, b, 1.5);
+  graph.connect(b, a, 1.5);
+  graph.connect(b, c, 2.0);
+  graph.connect(a, a, 1.0);
+  EXPECT_EQ(graph.edge_count(), 2);
+  EXPECT_EQ(graph.edge_time(b, a), 1.5);
+  graph.remove(b);
+  EXPECT_EQ(graph.edge_count(), 0);
+  EXPECT_EQ(graph.node_count(), 2);
+  EXPECT_TRUE(graph.node(a).edges.empty());
+  EXPECT_FALSE(graph.edge_time(b, c).has_value());
+}
+
+TEST(ViewGraph, NearestAreThoseOfBruteForce) {
+  Rng rng(1);
+  ViewGraph graph;
+  for (int i = 0; i < 300; ++i) graph.add(view_at(random_q(rng)));
+  graph.remove(NodeId{17});
+  graph.node(NodeId{18}).visited = true;
+  for (int trial = 0; trial < 20; ++trial) {
+    const Configuration q = random_q(rng);
+    const auto found = graph.nearest(q, 5, 2.5, NodeId{3});
+    std::vector<double> all;
+    for (std::size_t i = 0; i < 300; ++i) {
+      if (i == 17 || i == 3) continue;
+      all.push_back(joint_distance(q, graph.node(static_cast<NodeId>(i)).view.q));
+    }
+    std::sort(all.begin(), all.end());
+    ASSERT_EQ(
+        found.size(),
+        std::min<std::size_t>(5, static_cast<std::size_t>(std::count_if(
+                                     all.begin(), all.end(), [](double d) { return d <= 2.5; }))));
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i].distance_rad, all[i]);
+    for (const auto& neighbor : graph.nearest_unvisited(q, 300, 100.0, NodeId{3})) {
+      EXPECT_NE(neighbor.id, NodeId{18});
+    }
+  }
+}
+
+TEST(ViewGraph, SimilarMeansCloseAndLookingTheSameWay) {
+  ViewGraph graph;
+  ViewPose view = view_at(Configuration::Zero(6));
+  view.T_world_camera = look_at(Vec3(0, 0, 1), Vec3(-1, 0, 1));
+  graph.add(view);
+  const SimilarityLimits limits{0.05, 0.2};
+  ViewPose other = view;
+  other.T_world_camera = look_at(Vec3(0.03, 0, 1), Vec3(-1, 0, 1), 1.0);  // roll is free
+  EXPECT_TRUE(graph.has_similar(other, limits));
+  other.T_world_camera = look_at(Vec3(0.06, 0, 1), Vec3(-1, 0, 1));
+  EXPECT_FALSE(graph.has_similar(other, limits));
+  other.T_world_camera = look_at(Vec3(0, 0, 1), Vec3(-1, 0.25, 1));
+  EXPECT_FALSE(graph.has_similar(other, limits));
+}
+
+TEST(ViewGraph, ForgetsOnlyTheCastsThatAChangeTouches) {
+  ViewGraph graph;
+  const NodeId near = graph.add(view_at(Configuration::Zero(6)));
+  const NodeId far = graph.add(view_at(Configuration::Ones(6)));
+  graph.node(near).cast = ViewCast{VoxelSet(), {1, 5, 9}};
+  graph.node(far).cast = ViewCast{VoxelSet(), {2, 6}};
+  graph.invalidate_casts({4, 5});
+  EXPECT_FALSE(graph.node(near).cast.has_value());
+  EXPECT_TRUE(graph.node(far).cast.has_value());
+}
+
+}  // namespace
+}  // namespace canopeer
