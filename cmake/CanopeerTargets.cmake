@@ -10,7 +10,7 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 add_compile_options(-ffp-contract=off)
 # Every 64 bit x86 machine since about 2009 counts bits in one instruction; voxel sets live on that.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  #MARCH add_compile_options(-march=x86-64-v2)
+  add_compile_options(-march=x86-64-v2)
 endif()
 
 find_program(CCACHE ccache)

@@ -85,7 +85,8 @@ TEST_F(MissionTest, WorksThroughItsSegmentsInTime) {
     int views = 0;
     for (const auto& view : record_.views) {
       if (view.segment != segment.segment) continue;
-      if (views++ == 0) EXPECT_EQ(view.target_kind, "home");  // the first frame is taken at home
+      EXPECT_EQ(view.target_kind == "home", views == 0);  // the first frame is taken at home
+      ++views;
     }
     EXPECT_GE(views, 3);
   }

@@ -1,9 +1,11 @@
 #include "canopeer/eval/matching.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <tuple>
+#include <utility>
+
+#include "canopeer/eval/assignment.h"
 
 namespace canopeer {
 namespace {
@@ -69,60 +71,6 @@ std::vector<std::vector<FruitPair>> independent_pieces(const std::vector<FruitPa
     pieces[static_cast<std::size_t>(piece)].push_back(pair);
   }
   return pieces;
-}
-
-/// Column of each row in the assignment of least cost (Kuhn 1955, in the O(n²m) form with
-/// potentials); cost is rows × columns, rows ≤ columns.
-std::vector<int> least_cost_assignment(const Eigen::MatrixXd& cost) {
-  const int rows = static_cast<int>(cost.rows());
-  const int columns = static_cast<int>(cost.cols());
-  Eigen::VectorXd row_potential = Eigen::VectorXd::Zero(rows + 1);
-  Eigen::VectorXd column_potential = Eigen::VectorXd::Zero(columns + 1);
-  std::vector<int> row_of(columns + 1, 0);  // 1-based; column 0 holds the row being placed
-  std::vector<int> came_from(columns + 1, 0);
-  for (int row = 1; row <= rows; ++row) {
-    row_of[0] = row;
-    int column = 0;
-    Eigen::VectorXd slack =
-        Eigen::VectorXd::Constant(columns + 1, std::numeric_limits<double>::infinity());
-    std::vector<char> reached(columns + 1, 0);
-    do {
-      reached[column] = 1;
-      const int r = row_of[column];
-      int next = 0;
-      double step = std::numeric_limits<double>::infinity();
-      for (int c = 1; c <= columns; ++c) {
-        if (reached[c] != 0) continue;
-        const double reduced = cost(r - 1, c - 1) - row_potential[r] - column_potential[c];
-        if (reduced < slack[c]) {
-          slack[c] = reduced;
-          came_from[c] = column;
-        }
-        if (slack[c] < step) {
-          step = slack[c];
-          next = c;
-        }
-      }
-      for (int c = 0; c <= columns; ++c) {
-        if (reached[c] != 0) {
-          row_potential[row_of[c]] += step;
-          column_potential[c] -= step;
-        } else {
-          slack[c] -= step;
-        }
-      }
-      column = next;
-    } while (row_of[column] != 0);
-    while (column != 0) {
-      row_of[column] = row_of[came_from[column]];
-      column = came_from[column];
-    }
-  }
-  std::vector<int> column_of(rows, -1);
-  for (int c = 1; c <= columns; ++c) {
-    if (row_of[c] != 0) column_of[row_of[c] - 1] = c - 1;
-  }
-  return column_of;
 }
 
 std::vector<int> distinct(const std::vector<FruitPair>& pairs, int FruitPair::*member) {

@@ -29,6 +29,11 @@ Expected<void> FruitMapOptions::validate() const {
       !(prior.effective_points > 0.0) || !(prior.normal_centre_sd_m > 0.0)) {
     return fail("every value of the shape prior must be positive");
   }
+  if (min_normal_spread < 0.0 || min_normal_spread > 1.0) {
+    return fail("min_normal_spread must be in [0, 1]");
+  }
+  if (min_curvature_radius_m < 0.0) return fail("min_curvature_radius_m must not be negative");
+  if (!(max_piece_m > 0.0)) return fail("max_piece_m must be positive");
   if (!(max_rms_m > 0.0)) return fail("max_rms_m must be positive");
   if (!(min_centre_distance_m > 0.0)) return fail("min_centre_distance_m must be positive");
   if (!(id_distance_m > 0.0)) return fail("id_distance_m must be positive");

@@ -30,13 +30,13 @@ Curvature curvature_of(std::span<const SurfacePoint> surface, const std::vector<
   return curvature;
 }
 
-}  // namespace
-
 bool has_fruit_size(const ShapeEstimate& shape, const FruitMapOptions& options) {
   const double longest = 1.3 * options.max_radius_m;
   return shape.radius_m >= options.min_radius_m && shape.radius_m <= options.max_radius_m &&
          shape.half_length_m >= options.min_radius_m && shape.half_length_m <= longest;
 }
+
+}  // namespace
 
 bool is_fruit(std::span<const SurfacePoint> surface, const std::vector<int>& points,
               const ShapeEstimate& shape, const FruitMapOptions& options) {

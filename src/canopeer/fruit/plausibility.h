@@ -8,9 +8,6 @@
 
 namespace canopeer {
 
-/// Whether the shape of a size a fruit has.
-[[nodiscard]] bool has_fruit_size(const ShapeEstimate& shape, const FruitMapOptions& options);
-
 /// Whether the chosen points with their fitted shape are a fruit: enough of them, of a fruit's size
 /// and roundness, above the floor. Turns down clips (too strongly curved), labels and strings (flat
 /// or too few points) and what is no ellipsoid at all.

@@ -19,35 +19,53 @@ constexpr int kLeafSide = kBlockSide / 2;
 // A pinhole camera in single precision, pixels in one row-major array.
 struct FlatCamera {
   const float* depths;
-  float width, height, fx, fy, cx, cy;
+  int width, height;
+  float fx, fy, cx, cy;
 };
 
-// Which of four voxels in a row are seen nearer than the depth at their pixel; the first centre is
-// `p` and the next ones `step` apart (camera frame). `inside`: all project into the image.
-__attribute__((target_clones("avx2", "default"))) unsigned free_in_row(const FlatCamera& camera,
-                                                                       const float* p,
-                                                                       const float* step,
-                                                                       bool inside) {
-  std::array<float, kLeafSide> z;
-  std::array<int, kLeafSide> pixel;
-  std::array<int, kLeafSide> seen;
-  for (std::size_t i = 0; i < kLeafSide; ++i) {
-    const auto t = static_cast<float>(i);
-    z[i] = p[2] + t * step[2];
-    const float inverse = 1.0F / z[i];
-    const float u = camera.fx * (p[0] + t * step[0]) * inverse + camera.cx;
-    const float v = camera.fy * (p[1] + t * step[1]) * inverse + camera.cy;
-    const bool valid =
-        inside || (z[i] > 0.0F && u >= 0.0F && u < camera.width && v >= 0.0F && v < camera.height);
-    seen[i] = valid ? 1 : 0;
-    // Exact in single precision: an image has far fewer than 2^24 pixels.
-    const float row = static_cast<float>(static_cast<int>(valid ? v : 0.0F));
-    const float column = static_cast<float>(static_cast<int>(valid ? u : 0.0F));
-    pixel[i] = static_cast<int>(row * camera.width + column);
+// One slice of a leaf cube: its voxels in a vector loop.
+constexpr std::size_t kSliceVoxels = kLeafSide * kLeafSide;
+
+// Where the voxels of a slice are, relative to its first one, camera frame.
+struct SliceOffsets {
+  std::array<float, kSliceVoxels> x, y, z;
+};
+
+// Which voxels of a slice (bit y · kLeafSide + x) are seen nearer than the depth at the pixel their
+// centre falls on; the first centre is (x, y, z). Every centre must project into the image.
+__attribute__((target_clones("avx2", "default"))) unsigned free_in_slice_inside(
+    const FlatCamera& camera, float x, float y, float z, const SliceOffsets& offsets) {
+  std::array<float, kSliceVoxels> depth;
+  std::array<int, kSliceVoxels> pixel;
+  for (std::size_t i = 0; i < kSliceVoxels; ++i) {
+    depth[i] = z + offsets.z[i];
+    const float inverse = 1.0F / depth[i];
+    const float u = camera.fx * (x + offsets.x[i]) * inverse + camera.cx;
+    const float v = camera.fy * (y + offsets.y[i]) * inverse + camera.cy;
+    pixel[i] = static_cast<int>(v) * camera.width + static_cast<int>(u);
   }
   unsigned free = 0;
-  for (std::size_t i = 0; i < kLeafSide; ++i) {
-    free |= static_cast<unsigned>(seen[i] & static_cast<int>(z[i] < camera.depths[pixel[i]])) << i;
+  for (std::size_t i = 0; i < kSliceVoxels; ++i) {
+    free |= static_cast<unsigned>(depth[i] < camera.depths[pixel[i]]) << i;
+  }
+  return free;
+}
+
+// The same for centres that may fall beside the image or lie behind the camera: those are not free.
+unsigned free_in_slice(const FlatCamera& camera, float x, float y, float z,
+                       const SliceOffsets& offsets) {
+  unsigned free = 0;
+  for (std::size_t i = 0; i < kSliceVoxels; ++i) {
+    const float depth = z + offsets.z[i];
+    if (depth <= 0.0F) continue;
+    const float inverse = 1.0F / depth;
+    const float u = camera.fx * (x + offsets.x[i]) * inverse + camera.cx;
+    const float v = camera.fy * (y + offsets.y[i]) * inverse + camera.cy;
+    const bool seen = u >= 0.0F && u < static_cast<float>(camera.width) && v >= 0.0F &&
+                      v < static_cast<float>(camera.height);
+    if (!seen) continue;
+    const int pixel = static_cast<int>(v) * camera.width + static_cast<int>(u);
+    free |= static_cast<unsigned>(depth < camera.depths[pixel]) << i;
   }
   return free;
 }
@@ -63,10 +81,21 @@ class Frustum {
         resolution_m_(resolution_m),
         T_camera_world_(T_world_camera.inverse()),
         T_world_camera_(T_world_camera),
-        flat_{free_depth.pixels().data(),    static_cast<float>(k_.width),
-              static_cast<float>(k_.height), static_cast<float>(k_.fx),
-              static_cast<float>(k_.fy),     static_cast<float>(k_.cx),
-              static_cast<float>(k_.cy)} {}
+        flat_{free_depth.pixels().data(),
+              k_.width,
+              k_.height,
+              static_cast<float>(k_.fx),
+              static_cast<float>(k_.fy),
+              static_cast<float>(k_.cx),
+              static_cast<float>(k_.cy)} {
+    const Eigen::Matrix3d step = T_camera_world_.linear() * resolution_m_;
+    for (int i = 0; i < static_cast<int>(kSliceVoxels); ++i) {
+      const Vec3 offset = step.col(0) * (i % kLeafSide) + step.col(1) * (i / kLeafSide);
+      offsets_.x[static_cast<std::size_t>(i)] = static_cast<float>(offset.x());
+      offsets_.y[static_cast<std::size_t>(i)] = static_cast<float>(offset.y());
+      offsets_.z[static_cast<std::size_t>(i)] = static_cast<float>(offset.z());
+    }
+  }
 
   // The cubes that could hold free space.
   std::vector<VoxelIndex> root_cubes() const;
@@ -86,6 +115,7 @@ class Frustum {
   Pose T_camera_world_;
   Pose T_world_camera_;
   FlatCamera flat_;
+  SliceOffsets offsets_;
 };
 
 std::vector<VoxelIndex> Frustum::root_cubes() const {
@@ -150,17 +180,16 @@ Frustum::View Frustum::classify(const VoxelIndex& corner, int side) const {
 }
 
 void Frustum::test_voxels(const VoxelIndex& corner, bool inside, VoxelMask& free) const {
-  const Vec3 first = T_camera_world_ * voxel_centre(corner, resolution_m_);
-  const Eigen::Matrix3d step = T_camera_world_.linear() * resolution_m_;
-  const Eigen::Vector3f dx = step.col(0).cast<float>();
+  const auto test = inside ? free_in_slice_inside : free_in_slice;
   for (int z = 0; z < kLeafSide; ++z) {
-    for (int y = 0; y < kLeafSide; ++y) {
-      const Eigen::Vector3f p = (first + step.col(1) * y + step.col(2) * z).cast<float>();
-      const std::uint64_t row = free_in_row(flat_, p.data(), dx.data(), inside);
-      const VoxelIndex start = corner + VoxelIndex(0, y, z);
-      free.slices[static_cast<std::size_t>(VoxelMask::slice_of(start))] |=
-          row * VoxelMask::bit_of(start);
-    }
+    const VoxelIndex start = corner + VoxelIndex(0, 0, z);
+    const Eigen::Vector3f p = (T_camera_world_ * voxel_centre(start, resolution_m_)).cast<float>();
+    const std::uint64_t rows = test(flat_, p.x(), p.y(), p.z(), offsets_);
+    // Rows of 4 bits spread to the 8 a mask has.
+    const std::uint64_t spread =
+        (rows & 0xF) | (rows & 0xF0) << 4 | (rows & 0xF00) << 8 | (rows & 0xF000) << 12;
+    free.slices[static_cast<std::size_t>(VoxelMask::slice_of(start))] |=
+        spread * VoxelMask::bit_of(start);
   }
 }
 

@@ -197,7 +197,7 @@ class FruitMap {
     }
     const int axis = panel.down_axis;
     const AxisTicks down = axis_ticks(panel.shown.min()[axis], panel.shown.max()[axis],
-                                      std::max(2, static_cast<int>((bottom - panel.top) / 45.0)));
+                                      std::max(3, static_cast<int>((bottom - panel.top) / 40.0)));
     for (const double tick : down.values) {
       const double y = o.y() + p(1, axis) * tick;
       svg += fmt::format(
