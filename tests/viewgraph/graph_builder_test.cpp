@@ -118,9 +118,11 @@ TEST(GraphBuilder, RestsWhenFullAndMakesRoomWhenTargetsChange) {
   std::sort(updates.begin(), updates.end(), by_key);
   updates.erase(std::unique(updates.begin(), updates.end(), same_key), updates.end());
   known.apply(updates);
-  builder.set_targets(known, world.home.change.targets, {NodeId{0}});
+  NodeId kept{0};
+  while (graph.node(kept).removed) kept = static_cast<NodeId>(static_cast<std::uint32_t>(kept) + 1);
+  builder.set_targets(known, world.home.change.targets, {kept});
   EXPECT_EQ(graph.node_count(), 1);
-  EXPECT_FALSE(graph.node(NodeId{0}).removed);
+  EXPECT_FALSE(graph.node(kept).removed);
 }
 
 }  // namespace

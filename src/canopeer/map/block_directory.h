@@ -33,16 +33,9 @@ class BlockDirectory {
     std::uint32_t slot = kFree;
   };
 
-  // The eight blocks of a cube of 2³ share a run of entries, for the cache's sake: rays and frames
-  // touch neighbours together. The cubes are spread by Fibonacci hashing.
+  // Fibonacci hashing: the upper bits of the product are well mixed.
   std::size_t home(BlockKey key) const {
-    constexpr std::uint64_t kX = 1;
-    constexpr std::uint64_t kY = std::uint64_t{1} << 21;
-    constexpr std::uint64_t kZ = std::uint64_t{1} << 42;
-    const std::uint64_t within = (key & kX) | (key & kY) >> 20 | (key & kZ) >> 40;
-    const std::uint64_t cube = key & ~(kX | kY | kZ);
-    const std::uint64_t spread = (cube ^ cube >> 32) * 0x9E3779B97F4A7C15U >> shift_;
-    return static_cast<std::size_t>((spread & ~std::uint64_t{7}) | within);
+    return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15U) >> shift_);
   }
   void grow();
 
