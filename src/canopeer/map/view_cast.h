@@ -15,8 +15,8 @@ namespace canopeer {
 struct ViewFan {
   double fov_x_rad = 80.0 * std::numbers::pi / 180.0;
   double fov_y_rad = 60.0 * std::numbers::pi / 180.0;
-  int columns = 20;
-  int rows = 15;
+  int columns = 16;
+  int rows = 12;
   double depth_m = 1.0;  ///< along the optical axis, of every ray's end
 };
 

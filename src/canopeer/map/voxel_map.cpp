@@ -120,10 +120,26 @@ std::vector<BlockKey> VoxelMap::block_keys() const {
 std::vector<BlockKey> VoxelMap::block_keys(const Box& world) const {
   const VoxelBounds bounds = VoxelBounds::inside(world, resolution_m());
   std::vector<BlockKey> keys;
-  for (const BlockKey key : keys_) {
-    if (bounds.overlaps_block(key)) keys.push_back(key);
+  if (bounds.empty()) return keys;
+  const VoxelIndex low = block_index(block_key(bounds.first));
+  const VoxelIndex high = block_index(block_key(bounds.last));
+  const Eigen::Vector3d size = (high - low).cast<double>().array() + 1.0;
+  if (size.prod() > static_cast<double>(keys_.size())) {
+    for (const BlockKey key : keys_) {
+      if (bounds.overlaps_block(key)) keys.push_back(key);
+    }
+    std::sort(keys.begin(), keys.end());
+    return keys;
   }
-  std::sort(keys.begin(), keys.end());
+  // A small box: ask for its blocks, in the order of their keys.
+  for (int z = low.z(); z <= high.z(); ++z) {
+    for (int y = low.y(); y <= high.y(); ++y) {
+      for (int x = low.x(); x <= high.x(); ++x) {
+        const BlockKey key = pack_block(x, y, z);
+        if (directory_.find(key)) keys.push_back(key);
+      }
+    }
+  }
   return keys;
 }
 
