@@ -83,9 +83,10 @@ TEST_F(BadInput, AMalformedUrdfIsNamedWithItsLine) {
 }
 
 TEST_F(BadInput, SettingsOfTheCommandLineAreCheckedAlike) {
-  expect_refused(good(), {"map.resolution_mm"}, {"--set", "map.resolution_mm=10"});
+  expect_refused(good(), {"--set", "resolution_mm", "resolution_m'"},
+                 {"--set", "map.resolution_mm=10"});
   expect_refused(good(), {"key=value"}, {"--set", "map.resolution_m"});
-  expect_refused(good(), {"--set time_per_segment_s"}, {"--time-per-segment", "-5"});
+  expect_refused(good(), {"--set", "time_per_segment_s", "seconds"}, {"--time-per-segment", "-5"});
   expect_refused(good(), {"vmp"}, {"--planner", "vpm"});
   expect_refused(good(), {"compute table", "nonsense"}, {"--compute-table", "nonsense"});
 }

@@ -7,6 +7,7 @@ namespace canopeer {
 namespace {
 
 constexpr double kWaitStep = 0.05;  // s between two questions to a planner that waits
+constexpr double kAtHome = 0.1;     // rad, Σ|Δq|: more than an arm misses its goal by
 
 std::vector<double> to_vector(const Configuration& q) { return {q.data(), q.data() + q.size()}; }
 
@@ -170,19 +171,19 @@ Expected<void> SegmentRunner::go_home(const Configuration& home) {
   if (way.size() > 1) {
     if (auto ok = move("home", way); !ok) return ok;
   }
-  if (joint_distance(context_.ports.arm->configuration(), home) > 1e-3) {
+  if (joint_distance(way.back(), home) > 1e-9) {
     return fail("segment " + std::to_string(index_) +
                 ": no collision-free way home was found; is the home state of the next segment "
                 "blocked by plants?");
   }
-  context_.traveller.forget_way(home);
+  context_.traveller.forget_way(context_.ports.arm->configuration());
   return {};
 }
 
 /// The planner knows no way on. At another place it may: home is one that can always be reached.
 Expected<void> SegmentRunner::recover() {
   const double away = joint_distance(context_.ports.arm->configuration(), frame_.home);
-  if (away < 1e-3) {
+  if (away < kAtHome) {
     pass(1.0);
     return {};
   }
