@@ -13,4 +13,4 @@ while [ $# -gt 0 ]; do
 done
 [ "$only" = map ] || { echo "bench.sh: no benchmark '$only'; there is: map" >&2; exit 2; }
 scripts/build.sh release "${only}_bench"
-"build/release/bin/${only}_bench" ${json:+--json "$json"}
+"build/release/bin/${only}_bench" ${json:+"--benchmark_out=$json" --benchmark_out_format=json}
