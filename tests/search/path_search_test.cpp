@@ -20,6 +20,7 @@ PathSearchOptions exhaustive(bool reparent = false) {
   PathSearchOptions options;
   options.max_expansions = 1000000;
   options.max_views = 1000;
+  options.observe_s = 0.0;
   options.reparent = reparent;
   return options;
 }

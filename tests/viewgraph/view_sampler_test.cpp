@@ -36,8 +36,8 @@ TEST(ViewSampler, EveryViewKeepsAllThatIsAskedOfOne) {
     EXPECT_TRUE(world.robot.within_limits(view->q));
     EXPECT_FALSE(judge.check(view->q, world.frame.trolley, &world.perception.map()).any());
   }
-  EXPECT_EQ(work.units(Work::candidate), kCandidates);
-  EXPECT_GT(found, kCandidates / 20);
+  EXPECT_GE(work.units(Work::candidate), kCandidates);
+  EXPECT_GT(found, kCandidates / 4);
 }
 
 }  // namespace

@@ -121,6 +121,7 @@ void read_search(YamlMap search, VmpOptions& o) {
   PathSearchOptions& p = o.path_search;
   p.max_expansions = search.integer("max_expansions", p.max_expansions, 1, 10000000);
   p.max_views = search.integer("max_views", p.max_views, 1, 1000);
+  p.observe_s = search.number("observe_s", p.observe_s, {0.0, 100.0});
   p.reparent = search.boolean("reparent", p.reparent);
   p.fan.fov_x_rad = search.number("fan_fov_x_deg", p.fan.fov_x_rad / kRad, {1.0, 170.0}) * kRad;
   p.fan.fov_y_rad = search.number("fan_fov_y_deg", p.fan.fov_y_rad / kRad, {1.0, 170.0}) * kRad;

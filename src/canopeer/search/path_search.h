@@ -6,9 +6,10 @@
 namespace canopeer {
 
 struct PathSearchOptions {
-  ViewFan fan;               ///< rays of one view's visible set
-  int max_expansions = 120;  ///< nodes taken from the queue; the rest stays unexplored
-  int max_views = 12;     ///< longest path looked at; far beyond the look-ahead nothing is gained
+  ViewFan fan;              ///< rays of one view's visible set
+  double observe_s = 0.2;   ///< standing still at each view, part of the path's execution time L
+  int max_expansions = 60;  ///< nodes taken from the queue; the rest stays unexplored
+  int max_views = 12;       ///< longest path looked at; far beyond the look-ahead nothing is gained
   bool reparent = false;  ///< let a reached node take a better predecessor (the paper's text); off:
                           ///< Algorithm 1 as printed
 };

@@ -47,13 +47,19 @@ void GraphBuilder::set_targets(const VoxelMap& map, FrontierTargets targets,
                                const std::vector<NodeId>& keep) {
   targets_ = TargetSampler(std::move(targets), map.resolution_m(), options_.shares);
   idle_batches_ = 0;
-  if (graph_->node_count() < options_.max_nodes) return;
+  const bool full = graph_->node_count() >= options_.max_nodes;
   for (std::size_t i = 0; i < graph_->id_count(); ++i) {
     const auto id = static_cast<NodeId>(i);
-    const ViewNode& node = graph_->node(id);
-    const bool kept = node.visited || node.removed || node.view.kind == TargetKind::none ||
-                      std::find(keep.begin(), keep.end(), id) != keep.end();
-    if (!kept && !still_frontier(map, node.view.target_world)) graph_->remove(id);
+    ViewNode& node = graph_->node(id);
+    if (node.visited || node.removed || node.view.kind == TargetKind::none) continue;
+    const bool kept = std::find(keep.begin(), keep.end(), id) != keep.end();
+    const bool wanted = node.view.kind == TargetKind::roi || (full && !kept);
+    if (!wanted || still_frontier(map, node.view.target_world)) continue;
+    if (full && !kept) {
+      graph_->remove(id);
+    } else {
+      node.view.kind = TargetKind::occupied;  // that fruit is seen; the view may still show others
+    }
   }
 }
 

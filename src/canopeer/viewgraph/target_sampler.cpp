@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "canopeer/base/check.h"
 #include "canopeer/geometry/voxel_ray.h"
 
 namespace canopeer {
@@ -15,16 +16,24 @@ bool TargetSampler::empty() const {
   return targets_.roi.empty() && targets_.occupied.empty() && targets_.border.empty();
 }
 
-std::optional<Target> TargetSampler::draw(Rng& rng) const {
+const std::vector<VoxelIndex>& TargetSampler::of_kind(TargetKind kind) const {
+  CANOPEER_CHECK(kind != TargetKind::none, "a kind of frontier");
+  if (kind == TargetKind::roi) return targets_.roi;
+  return kind == TargetKind::occupied ? targets_.occupied : targets_.border;
+}
+
+std::optional<TargetKind> TargetSampler::draw_kind(Rng& rng) const {
   if (empty()) return std::nullopt;
-  const std::array kinds = {std::pair{TargetKind::roi, &targets_.roi},
-                            std::pair{TargetKind::occupied, &targets_.occupied},
-                            std::pair{TargetKind::border, &targets_.border}};
+  constexpr std::array kKinds = {TargetKind::roi, TargetKind::occupied, TargetKind::border};
   const double share = rng.uniform();
-  std::size_t kind = share < shares_.roi ? 0 : share < shares_.roi + shares_.occupied ? 1 : 2;
-  while (kinds[kind].second->empty()) kind = (kind + 1) % kinds.size();
-  const auto& voxels = *kinds[kind].second;
-  return Target{kinds[kind].first, voxel_centre(voxels[rng.index(voxels.size())], resolution_m_)};
+  std::size_t i = share < shares_.roi ? 0 : share < shares_.roi + shares_.occupied ? 1 : 2;
+  while (of_kind(kKinds[i]).empty()) i = (i + 1) % kKinds.size();
+  return kKinds[i];
+}
+
+Target TargetSampler::draw(TargetKind kind, Rng& rng) const {
+  const auto& voxels = of_kind(kind);
+  return {kind, voxel_centre(voxels[rng.index(voxels.size())], resolution_m_)};
 }
 
 }  // namespace canopeer

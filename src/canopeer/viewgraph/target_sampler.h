@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "canopeer/base/rng.h"
 #include "canopeer/map/frontier.h"
@@ -28,12 +29,16 @@ class TargetSampler {
   TargetSampler() = default;
   TargetSampler(FrontierTargets targets, double resolution_m, const TargetShares& shares);
 
-  /// Nothing when there is no target of any kind.
-  [[nodiscard]] std::optional<Target> draw(Rng& rng) const;
+  /// A kind by its share, one that has targets; nothing when there is no target at all.
+  [[nodiscard]] std::optional<TargetKind> draw_kind(Rng& rng) const;
+  /// A target of that kind, which has some.
+  [[nodiscard]] Target draw(TargetKind kind, Rng& rng) const;
   [[nodiscard]] bool empty() const;
   [[nodiscard]] const FrontierTargets& targets() const { return targets_; }
 
  private:
+  [[nodiscard]] const std::vector<VoxelIndex>& of_kind(TargetKind kind) const;
+
   FrontierTargets targets_;
   double resolution_m_ = 0.01;
   TargetShares shares_;

@@ -17,8 +17,20 @@ ViewSampler::ViewSampler(const SegmentFrame& frame, const RobotModel& robot, con
 std::optional<ViewPose> ViewSampler::sample(const VoxelMap& map, const CollisionChecker& checker,
                                             const TargetSampler& targets, Rng& rng,
                                             WorkMeter& work) const {
+  const auto kind = targets.draw_kind(rng);
+  if (!kind) return std::nullopt;
+  for (int i = 0; i < options_.max_tries; ++i) {
+    if (auto view = sample_once(map, checker, targets, *kind, rng, work)) return view;
+  }
+  return std::nullopt;
+}
+
+std::optional<ViewPose> ViewSampler::sample_once(const VoxelMap& map,
+                                                 const CollisionChecker& checker,
+                                                 const TargetSampler& targets, TargetKind kind,
+                                                 Rng& rng, WorkMeter& work) const {
   work.add(Work::candidate);
-  const auto sight = draw_sight(targets, rng);
+  const auto sight = draw_sight(targets, kind, rng);
   if (!sight) return std::nullopt;
   if (ray_blocked(map, sight->target.p_world, sight->camera_world)) return std::nullopt;
   auto q = reach(*sight, checker, work);
@@ -27,23 +39,22 @@ std::optional<ViewPose> ViewSampler::sample(const VoxelMap& map, const Collision
   view.T_world_camera = frame_->T_world_base * robot_->T_base_camera(*q);
   view.q = std::move(*q);
   view.target_world = sight->target.p_world;
-  view.kind = sight->target.kind;
+  view.kind = kind;
   return view;
 }
 
 std::optional<ViewSampler::Sight> ViewSampler::draw_sight(const TargetSampler& targets,
-                                                          Rng& rng) const {
+                                                          TargetKind kind, Rng& rng) const {
   const Box& box = frame_->workspace_base;
   for (int i = 0; i < options_.max_draws; ++i) {
-    const auto target = targets.draw(rng);
-    if (!target) return std::nullopt;
+    const Target target = targets.draw(kind, rng);
     const Vec3 camera_base(rng.uniform(box.min().x(), box.max().x()),
                            rng.uniform(box.min().y(), box.max().y()),
                            rng.uniform(box.min().z(), box.max().z()));
     const Vec3 camera_world = frame_->T_world_base * camera_base;
-    const double distance = (camera_world - target->p_world).norm();
+    const double distance = (camera_world - target.p_world).norm();
     if (distance >= options_.min_target_distance_m && distance <= options_.max_target_distance_m) {
-      return Sight{*target, camera_world};
+      return Sight{target, camera_world};
     }
   }
   return std::nullopt;

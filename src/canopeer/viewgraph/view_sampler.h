@@ -16,7 +16,10 @@ namespace canopeer {
 struct ViewSamplerOptions {
   double min_target_distance_m = 0.3;  ///< nearest camera position to its target
   double max_target_distance_m = 0.6;
-  int max_draws = 32;         ///< (target, position) pairs drawn until one is within the distances
+  int max_tries =
+      12;  ///< for one candidate of a kind: other targets and positions until a view is valid
+  int max_draws =
+      32;  ///< (target, position) pairs drawn in a try until one is within the distances
   int max_state_checks = 12;  ///< arm configurations of one view tried for collisions
 };
 
@@ -29,9 +32,11 @@ class ViewSampler {
   ViewSampler(const SegmentFrame& frame, const RobotModel& robot, const ArmIk& ik,
               const ViewSamplerOptions& options);
 
-  /// One candidate; nothing when any of the tests fails. The arm configuration is the
-  /// collision-free one nearest to home, so that neighbouring views are neighbours in joint space
-  /// too. Thread-safe; `work` is counted in the call.
+  /// One candidate; nothing when no try passes all tests. Its kind is drawn once and kept, so that
+  /// the shares of the kinds hold among the views and not only among the tries (views of fruits
+  /// fail most often). The arm configuration is the collision-free one nearest to home, so that
+  /// neighbouring views are neighbours in joint space too. Thread-safe; `work` is counted in the
+  /// call.
   [[nodiscard]] std::optional<ViewPose> sample(const VoxelMap& map, const CollisionChecker& checker,
                                                const TargetSampler& targets, Rng& rng,
                                                WorkMeter& work) const;
@@ -41,7 +46,12 @@ class ViewSampler {
     Target target;
     Vec3 camera_world;
   };
-  [[nodiscard]] std::optional<Sight> draw_sight(const TargetSampler& targets, Rng& rng) const;
+  [[nodiscard]] std::optional<ViewPose> sample_once(const VoxelMap& map,
+                                                    const CollisionChecker& checker,
+                                                    const TargetSampler& targets, TargetKind kind,
+                                                    Rng& rng, WorkMeter& work) const;
+  [[nodiscard]] std::optional<Sight> draw_sight(const TargetSampler& targets, TargetKind kind,
+                                                Rng& rng) const;
   [[nodiscard]] std::optional<Configuration> reach(const Sight& sight,
                                                    const CollisionChecker& checker,
                                                    WorkMeter& work) const;
