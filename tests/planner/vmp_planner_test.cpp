@@ -109,7 +109,8 @@ TEST_F(VmpPlannerTest, GrowSpendsItsTimeAndNoMore) {
   begin({});
   WorkMeter work;
   planner_->grow(0.05, work);
-  const double batch_s = GraphBuilderOptions{}.batch * costs_[Work::candidate];
+  const GraphBuilderOptions options;
+  const double batch_s = options.batch * options.sampler.max_tries * costs_[Work::candidate];
   EXPECT_GE(work.seconds(costs_), 0.05);
   EXPECT_LE(work.seconds(costs_), 0.05 + batch_s + 1e-12);
   planner_->grow(0.05, work);  // what was spent too much is owed
