@@ -43,8 +43,7 @@ class MissionTest : public ::testing::Test {
 
   /// Runs the mission over `ports`, whatever they are made of.
   Expected<void> run(Simulation& simulation, const Ports& ports) {
-    Mission mission(test::test_robot(), ik_,
-                    simulation.judge().checker(), ports, options_, stop_);
+    Mission mission(test::test_robot(), ik_, simulation.judge().checker(), ports, options_, stop_);
     return run(simulation, mission);
   }
   Expected<void> run(Simulation& simulation, Mission& mission) {

@@ -32,9 +32,9 @@ class GraphBuilder {
   GraphBuilder(ViewGraph& graph, const SegmentFrame& frame, const RobotModel& robot,
                const ArmIk& ik, const GraphBuilderOptions& options, std::uint64_t seed);
 
-  /// New frontiers, re-extracted after a frame: a resting builder wakes. Views whose ROI target is no
-  /// frontier any more stop facing a ROI. When the graph is full, unvisited views whose target is
-  /// none any more make room, except those in `keep`.
+  /// New frontiers, re-extracted after a frame: a resting builder wakes. Views whose ROI target is
+  /// no frontier any more stop facing a ROI. When the graph is full, unvisited views whose target
+  /// is none any more make room, except those in `keep`.
   void set_targets(const VoxelMap& map, FrontierTargets targets, const std::vector<NodeId>& keep);
 
   /// Puts the arm's present configuration in as a visited node and joins it to its neighbours.
