@@ -80,8 +80,8 @@ const octomap::OcTree& fused_octree() {
 
 ViewFan fan_of(std::int64_t rays) {
   ViewFan fan;
-  fan.columns = rays == 63 ? 9 : 40;
-  fan.rows = rays == 63 ? 7 : 30;
+  fan.columns = rays == 63 ? 9 : rays == 192 ? 16 : 40;
+  fan.rows = rays == 63 ? 7 : rays == 192 ? 12 : 30;
   return fan;
 }
 
@@ -137,7 +137,7 @@ void view_cast(benchmark::State& state) {
   state.counters["unknown"] =
       benchmark::Counter(static_cast<double>(unknown), benchmark::Counter::kAvgIterations);
 }
-BENCHMARK(view_cast)->Arg(63)->Arg(1200)->Unit(benchmark::kMicrosecond);
+BENCHMARK(view_cast)->Arg(63)->Arg(192)->Arg(1200)->Unit(benchmark::kMicrosecond);
 
 // As the reference does it: the keys of each ray up to the first occupied voxel, unknown ones into
 // one KeySet.
@@ -171,7 +171,7 @@ void octomap_view_cast(benchmark::State& state) {
   state.counters["unknown"] =
       benchmark::Counter(static_cast<double>(unknown), benchmark::Counter::kAvgIterations);
 }
-BENCHMARK(octomap_view_cast)->Arg(63)->Arg(1200)->Unit(benchmark::kMicrosecond);
+BENCHMARK(octomap_view_cast)->Arg(63)->Arg(192)->Arg(1200)->Unit(benchmark::kMicrosecond);
 
 void view_union(benchmark::State& state) {
   std::vector<ViewCast> casts;

@@ -31,7 +31,7 @@ TEST(Block, KeysRoundTripAndSortByZThenYThenX) {
 }
 
 TEST(BlockDirectory, FindsWhatWasAddedInOrderThroughGrowth) {
-  BlockDirectory directory(1);
+  BlockDirectory directory;
   for (int i = 0; i < 5000; ++i) {
     EXPECT_EQ(directory.find_or_add(pack_block(i % 17 - 8, i / 17 - 150, i % 5)),
               static_cast<std::uint32_t>(i));

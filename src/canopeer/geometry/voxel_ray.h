@@ -1,6 +1,6 @@
 #pragma once
 
-#include <bit>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -22,57 +22,71 @@ inline Vec3 voxel_centre(const VoxelIndex& v, double resolution_m) {
   return (v.cast<double>().array() + 0.5).matrix() * resolution_m;
 }
 
-/// Visits every voxel the segment from → to crosses, in order, both ends included (Amanatides &
-/// Woo, Eurographics 1987). `visit(VoxelIndex)` returns false to stop early. Returns false when
-/// stopped.
+/// How a segment crosses the voxels, face by face (Amanatides & Woo, Eurographics 1987): `steps`
+/// faces are crossed, of axis a the first at time t_next[a] and then every t_delta[a]. Times are
+/// fixed point, so that adding them up in whatever portions gives the same order.
+struct VoxelWalk {
+  /// Time at the segment's end. Sums over some dozen crossings beyond it do not overflow.
+  static constexpr std::int64_t kEnd = std::int64_t{1} << 56;
+
+  VoxelWalk(const Vec3& from, const Vec3& to, double resolution_m)
+      : first(voxel_at(from, resolution_m)) {
+    const VoxelIndex last = voxel_at(to, resolution_m);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double d = to[axis] - from[axis];
+      const int crossings = d == 0.0 ? 0 : std::abs(last[axis] - first[axis]);
+      step[axis] = d > 0.0 ? 1 : -1;
+      t_next[axis] = std::numeric_limits<std::int64_t>::max();
+      t_delta[axis] = 0;
+      steps += crossings;
+      if (crossings == 0) continue;
+      const double face = (first[axis] + (d > 0.0 ? 1 : 0)) * resolution_m;
+      const auto time = [](double t) { return static_cast<std::int64_t>(t * kEnd); };
+      t_next[axis] = time(std::clamp((face - from[axis]) / d, 0.0, 1.0));
+      t_delta[axis] = crossings == 1 ? kEnd + 1 : time(resolution_m / std::abs(d));
+      // Whatever rounding says, the last crossing is not after the end and one more would be: the
+      // walk makes `steps` steps and ends in the end's voxel.
+      const std::int64_t late = t_next[axis] + (crossings - 1) * t_delta[axis] - kEnd;
+      if (late > 0) t_next[axis] = std::max<std::int64_t>(0, t_next[axis] - late);
+      const std::int64_t early = kEnd + 1 - (t_next[axis] + crossings * t_delta[axis]);
+      if (early > 0) t_delta[axis] += early / crossings + 1;
+    }
+  }
+
+  VoxelIndex first;
+  int step[3];
+  std::int64_t t_next[3];
+  std::int64_t t_delta[3];
+  int steps = 0;
+};
+
+/// Visits every voxel the segment from → to crosses, in order, both ends included. `visit(
+/// VoxelIndex)` returns false to stop early. Returns false when stopped.
 ///
 /// Which axis steps next is as good as random, so the loop has no branch on it: `on ? x : 0` by bit
 /// masks.
 template <typename Visit>
 bool walk_voxels(const Vec3& from, const Vec3& to, double resolution_m, Visit&& visit) {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  const auto masked = [](double value, std::uint64_t mask) {
-    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) & mask);
-  };
-  const VoxelIndex first = voxel_at(from, resolution_m);
-  const VoxelIndex last = voxel_at(to, resolution_m);
-  const Vec3 direction = to - from;
-  int step[3];
-  int left[3];       // steps an axis has still to make
-  double t_next[3];  // where on the segment (0 … 1) an axis steps next
-  double t_delta[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    const double d = direction[axis];
-    left[axis] = d == 0.0 ? 0 : std::abs(last[axis] - first[axis]);
-    step[axis] = d > 0.0 ? 1 : -1;
-    const double border = (first[axis] + (d > 0.0 ? 1 : 0)) * resolution_m;
-    t_next[axis] = left[axis] == 0 ? kNever : (border - from[axis]) / d;
-    t_delta[axis] = left[axis] == 0 ? 0.0 : resolution_m / std::abs(d);
-  }
-  int x = first.x();
-  int y = first.y();
-  int z = first.z();
-  double tx = t_next[0];
-  double ty = t_next[1];
-  double tz = t_next[2];
-  for (int steps = left[0] + left[1] + left[2];; --steps) {
+  const VoxelWalk walk(from, to, resolution_m);
+  int x = walk.first.x();
+  int y = walk.first.y();
+  int z = walk.first.z();
+  std::int64_t tx = walk.t_next[0];
+  std::int64_t ty = walk.t_next[1];
+  std::int64_t tz = walk.t_next[2];
+  for (int steps = walk.steps;; --steps) {
     if (!visit(VoxelIndex(x, y, z))) return false;
     if (steps == 0) return true;
-    const std::uint64_t x_before_y = -static_cast<std::uint64_t>(tx < ty);
-    const std::uint64_t z_first = -static_cast<std::uint64_t>(tz < (tx < ty ? tx : ty));
-    const std::uint64_t on_x = x_before_y & ~z_first;
-    const std::uint64_t on_y = ~x_before_y & ~z_first;
-    x += step[0] & static_cast<int>(on_x);
-    y += step[1] & static_cast<int>(on_y);
-    z += step[2] & static_cast<int>(z_first);
-    left[0] += static_cast<int>(on_x);
-    left[1] += static_cast<int>(on_y);
-    left[2] += static_cast<int>(z_first);
-    // An axis that has arrived never moves again, whatever rounding says: the walk ends exactly at
-    // `last`.
-    tx += masked(left[0] == 0 ? kNever : t_delta[0], on_x);
-    ty += masked(left[1] == 0 ? kNever : t_delta[1], on_y);
-    tz += masked(left[2] == 0 ? kNever : t_delta[2], z_first);
+    const auto x_before_y = -static_cast<std::int64_t>(tx < ty);
+    const auto on_z = -static_cast<std::int64_t>(tz < (tx < ty ? tx : ty));
+    const std::int64_t on_x = x_before_y & ~on_z;
+    const std::int64_t on_y = ~x_before_y & ~on_z;
+    x += walk.step[0] & static_cast<int>(on_x);
+    y += walk.step[1] & static_cast<int>(on_y);
+    z += walk.step[2] & static_cast<int>(on_z);
+    tx += walk.t_delta[0] & on_x;
+    ty += walk.t_delta[1] & on_y;
+    tz += walk.t_delta[2] & on_z;
   }
 }
 

@@ -87,7 +87,7 @@ struct BlockTargets {
   VoxelMask roi, occupied, border;
 };
 
-BlockTargets targets_of(const VoxelMap& map, BlockKey key, bool roi_near) {
+BlockTargets targets_of(const VoxelMap& map, BlockKey key, bool near_roi) {
   const auto unknown = [](const BlockMasks& b, std::size_t z) { return ~b.observed.slices[z]; };
   const auto occupied = [](const BlockMasks& b, std::size_t z) { return b.occupied.slices[z]; };
   const auto roi = [](const BlockMasks& b, std::size_t z) { return b.roi.slices[z]; };
@@ -103,26 +103,20 @@ BlockTargets targets_of(const VoxelMap& map, BlockKey key, bool roi_near) {
       targets.occupied.slices[i] = open & beside_occupied;
       targets.border.slices[i] = open & ~beside_occupied;
     }
-    if (!roi_near) continue;
+    if (!near_roi) continue;
     targets.roi.slices[i] = free & around.near18(roi, z) & around.near18(unknown, z);
   }
   return targets;
 }
 
-// The blocks that hold ROI voxels and the 26 around each, sorted.
-std::vector<BlockKey> blocks_near_roi(const VoxelMap& map) {
-  std::vector<BlockKey> near;
-  if (map.roi_voxels() == 0) return near;
-  map.for_each_block([&](BlockKey key, const BlockMasks& masks) {
-    if (!masks.roi.any()) return;
-    const VoxelIndex b = block_index(key);
-    for (int i = 0; i < 27; ++i) {
-      near.push_back(pack_block(b.x() + i % 3 - 1, b.y() + i / 3 % 3 - 1, b.z() + i / 9 - 1));
-    }
-  });
-  std::sort(near.begin(), near.end());
-  near.erase(std::unique(near.begin(), near.end()), near.end());
-  return near;
+// Some of the 27 blocks around `key` holds ROI voxels.
+bool roi_near(const VoxelMap& map, BlockKey key) {
+  const VoxelIndex b = block_index(key);
+  for (int i = 0; i < 27; ++i) {
+    const BlockKey beside = pack_block(b.x() + i % 3 - 1, b.y() + i / 3 % 3 - 1, b.z() + i / 9 - 1);
+    if ((map.block_summary(beside) & BlockSummary::kRoi) != 0) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -130,12 +124,10 @@ std::vector<BlockKey> blocks_near_roi(const VoxelMap& map) {
 FrontierTargets extract_frontiers(const VoxelMap& map, const Box& world) {
   const VoxelBounds bounds = VoxelBounds::inside(world, map.resolution_m());
   const std::vector<BlockKey> keys = map.block_keys(world);
-  const std::vector<BlockKey> roi_blocks = blocks_near_roi(map);
   std::vector<BlockTargets> found(keys.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, keys.size(), 128), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      const bool roi_near = std::binary_search(roi_blocks.begin(), roi_blocks.end(), keys[i]);
-      found[i] = targets_of(map, keys[i], roi_near);
+      found[i] = targets_of(map, keys[i], roi_near(map, keys[i]));
     }
   });
   FrontierTargets targets;

@@ -68,7 +68,7 @@ Expected<void> VoxelMapOptions::validate() const {
 }
 
 VoxelMap::VoxelMap(const VoxelMapOptions& options)
-    : options_(options), steps_(fixed_point(options)), directory_(4096) {}
+    : options_(options), steps_(fixed_point(options)) {}
 
 VoxelMap::Increments VoxelMap::fixed_point(const VoxelMapOptions& options) {
   CANOPEER_CHECK(options.validate().has_value(), "VoxelMapOptions must be valid");
@@ -175,6 +175,14 @@ std::uint32_t VoxelMap::slot_for(BlockKey key, bool with_roi) {
   return slot;
 }
 
+void VoxelMap::summarise(BlockKey key, const BlockMasks& masks) {
+  unsigned summary = 0;
+  if (masks.occupied.any()) summary |= BlockSummary::kOccupied;
+  if (masks.observed.full()) summary |= BlockSummary::kComplete;
+  if (masks.roi.any()) summary |= BlockSummary::kRoi;
+  directory_.summary(key) = static_cast<std::uint8_t>(summary);
+}
+
 // Adds the steps, clamps, and refreshes the bits of `above` (log-odds ≥ threshold) where stepped.
 void VoxelMap::add_log_odds(BlockLogOdds& log_odds, const VoxelMask& hit, const VoxelMask& miss,
                             const Increments& steps, VoxelMask& above) {
@@ -239,6 +247,7 @@ UpdateResult VoxelMap::apply(std::span<const BlockUpdate> updates) {
       outcomes[i].stepped = stepped.count();
       if (!changed) continue;
       outcomes[i].changed = true;
+      summarise(update.key, masks);
       versions_[slots[i]] = updates_;
       outcomes[i].observed = masks.observed.count() - before.observed.count();
       outcomes[i].occupied = masks.occupied.count() - before.occupied.count();
@@ -279,6 +288,7 @@ void VoxelMap::write_log_odds(const VoxelIndex& voxel, double log_odds, bool roi
     observed_voxels_ += (masks.observed.slices[z] & bit) == 0;
     masks.observed.slices[z] |= bit;
   }
+  summarise(block_key(voxel), masks);
   versions_[slot] = ++updates_;
 }
 

@@ -82,6 +82,16 @@ class VoxelMap {
     const auto slot = directory_.find(key);
     return slot ? &masks_[*slot] : nullptr;
   }
+  /// The 4 × 4 × 4 blocks around `key` (slots mean nothing outside); nullptr: nothing observed.
+  [[nodiscard]] const BlockDirectory::Chunk* chunk(BlockKey key) const {
+    return directory_.chunk(key);
+  }
+  /// BlockSummary bits; 0 when nothing is observed there.
+  [[nodiscard]] std::uint8_t block_summary(BlockKey key) const {
+    const BlockDirectory::Chunk* found = directory_.chunk(key);
+    return found == nullptr ? std::uint8_t{0}
+                            : found->summaries[BlockDirectory::place_in_chunk(key)];
+  }
   /// Number of the update that last changed the block's masks; 0: never.
   [[nodiscard]] std::uint64_t block_version(BlockKey key) const;
   /// Observed blocks, sorted; the second form only those that overlap `world`.
@@ -114,6 +124,7 @@ class VoxelMap {
   static void add_log_odds(BlockLogOdds& log_odds, const VoxelMask& hit, const VoxelMask& miss,
                            const Increments& steps, VoxelMask& above);
   std::uint32_t slot_for(BlockKey key, bool with_roi);
+  void summarise(BlockKey key, const BlockMasks& masks);
   void write_log_odds(const VoxelIndex& voxel, double log_odds, bool roi);
 
   VoxelMapOptions options_;

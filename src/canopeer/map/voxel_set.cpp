@@ -6,8 +6,10 @@ namespace canopeer {
 
 VoxelSet::VoxelSet(std::vector<Block> blocks) : blocks_(std::move(blocks)) {
   std::erase_if(blocks_, [](const Block& block) { return !block.mask.any(); });
-  std::sort(blocks_.begin(), blocks_.end(),
-            [](const Block& a, const Block& b) { return a.key < b.key; });
+  const auto by_key = [](const Block& a, const Block& b) { return a.key < b.key; };
+  if (!std::is_sorted(blocks_.begin(), blocks_.end(), by_key)) {
+    std::sort(blocks_.begin(), blocks_.end(), by_key);
+  }
   for (const Block& block : blocks_) count_ += block.mask.count();
 }
 
