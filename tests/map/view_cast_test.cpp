@@ -51,6 +51,47 @@ TEST(ViewCast, FindsTheVoxelsAPlainWalkerFinds) {
   }
 }
 
+// Rays from lattice points cross edges and corners of voxels, where ties decide; clear blocks are
+// passed in one go.
+TEST(ViewCast, LeapsOverClearBlocksOntoTheVoxelsAPlainWalkerFinds) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Rng rng(seed, "clear blocks");
+    VoxelMap map;
+    std::vector<BlockUpdate> updates;
+    for (int i = 0; i < 6 * 6 * 6; ++i) {
+      if (rng.chance(0.3)) continue;
+      BlockUpdate& update = updates.emplace_back();
+      update.key = pack_block(i % 6 - 3, i / 6 % 6 - 3, i / 36 - 3);
+      update.miss = VoxelMask::all();
+      if (rng.chance(0.2)) update.miss.slices[rng.index(8)] &= rng.bits();
+      if (rng.chance(0.1)) update.hit.slices[rng.index(8)] = rng.bits() & rng.bits() & rng.bits();
+      update.miss -= update.hit;
+    }
+    map.apply(updates);
+    const auto lattice = [&] { return 0.01 * static_cast<double>(rng.index(20)) - 0.1; };
+    const bool tied = seed % 2 == 0;
+    const Vec3 from = tied ? Vec3(lattice(), lattice(), lattice())
+                           : Vec3(rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1), 0.0123);
+    Pose T_world_camera = look_at(from, from + Vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), 1.0));
+    if (tied) T_world_camera.linear() = Eigen::Matrix3d::Identity();
+    ViewFan fan;
+    fan.columns = fan.rows = 5;
+    fan.depth_m = 0.2;
+    if (tied) fan.fov_x_rad = fan.fov_y_rad = std::numbers::pi / 2.0;  // along diagonals
+    Voxels expected;
+    for (int i = 0; i < 25; ++i) {
+      const Vec3 end(std::tan(fan.fov_x_rad / 2) * (i % 5 / 2.0 - 1.0),
+                     std::tan(fan.fov_y_rad / 2) * (i / 5 / 2.0 - 1.0), 1.0);
+      walk_voxels(from, T_world_camera * (fan.depth_m * end), 0.01, [&](const VoxelIndex& v) {
+        const Occupancy state = map.occupancy(v);
+        if (state == Occupancy::unknown) expected.insert({v.x(), v.y(), v.z()});
+        return state != Occupancy::occupied;
+      });
+    }
+    EXPECT_EQ(as_set(cast_view(map, T_world_camera, fan).unknown), expected) << "seed " << seed;
+  }
+}
+
 TEST(ViewCast, SeesNothingBehindAWallAndAllOfAnEmptyMap) {
   std::vector<VoxelIndex> wall;
   for (int y = -60; y < 60; ++y) {

@@ -114,6 +114,31 @@ TEST(VoxelMap, SumsClampsAndCountsLikeAPlainTable) {
   EXPECT_EQ(map.occupancy({1000, 0, 0}), Occupancy::unknown);
 }
 
+TEST(VoxelMap, ABlockSeenFreeAgainAndAgainSettlesAndStillTakesHits) {
+  VoxelMap map;
+  BlockUpdate free;
+  free.key = pack_block(0, 0, 0);
+  free.miss = VoxelMask::all();
+  for (int i = 0; i < 10; ++i) {
+    const UpdateResult result = map.apply({&free, 1});
+    EXPECT_EQ(result.updated_voxels, kBlockVoxels);
+    EXPECT_EQ(result.changed.size(), i == 0 ? 1U : 0U);
+  }
+  const VoxelIndex v(3, 4, 5);
+  EXPECT_NEAR(map.occupancy_log_odds(v), log_odds(0.12), 2.5e-4);
+  BlockUpdate hit;
+  hit.key = free.key;
+  hit.hit.set(v);
+  map.apply({&hit, 1});
+  EXPECT_NEAR(map.occupancy_log_odds(v), log_odds(0.12) + log_odds(0.7), 5e-4);
+  map.apply({&free, 1});
+  map.apply({&hit, 1});
+  EXPECT_NEAR(map.occupancy_log_odds(v), log_odds(0.12) + 2 * log_odds(0.7) + log_odds(0.4), 1e-3);
+  map.apply({&hit, 1});
+  map.apply({&hit, 1});
+  EXPECT_EQ(map.occupancy(v), Occupancy::occupied);
+}
+
 TEST(VoxelMap, ReportsExactlyTheBlocksWhoseMasksChanged) {
   VoxelMap map;
   BlockUpdate update;

@@ -37,6 +37,21 @@ TEST(TargetSampler, AnEmptyKindHandsOverToTheNext) {
   EXPECT_EQ(only_roi[TargetKind::roi], 1000);
 }
 
+TEST(TargetSampler, AClosedKindHandsOverToo) {
+  TargetSampler sampler(targets(5, 10, 10), 0.01, {});
+  sampler.close(TargetKind::occupied, true);
+  auto counts = draw_many(sampler, 10000);
+  EXPECT_EQ(counts[TargetKind::occupied], 0);
+  EXPECT_NEAR(counts[TargetKind::border], 5000, 5 * 50);
+  sampler.close(TargetKind::roi, true);
+  sampler.close(TargetKind::border, true);
+  EXPECT_TRUE(sampler.empty());
+  Rng rng(3);
+  EXPECT_FALSE(sampler.draw_kind(rng).has_value());
+  sampler.close(TargetKind::occupied, false);
+  EXPECT_EQ(sampler.draw_kind(rng), TargetKind::occupied);
+}
+
 TEST(TargetSampler, GivesVoxelCentresAndNothingWhenThereIsNone) {
   Rng rng(2);
   const TargetSampler one(targets(1, 0, 0), 0.01, {});

@@ -16,6 +16,7 @@ struct BlockSummary {
   static constexpr std::uint8_t kOccupied = 1;  ///< some voxel is occupied
   static constexpr std::uint8_t kComplete = 2;  ///< all voxels are observed
   static constexpr std::uint8_t kRoi = 4;       ///< some voxel is ROI
+  static constexpr std::uint8_t kSettled = 8;   ///< all voxels are as free as can be
 };
 
 /// Where each block lies: key → slot 0, 1, 2 … in order of insertion, and its summary. Blocks lie

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "canopeer/map/block_surroundings.h"
 #include "canopeer/map/voxel_bounds.h"
 
 namespace canopeer {
@@ -109,25 +110,17 @@ BlockTargets targets_of(const VoxelMap& map, BlockKey key, bool near_roi) {
   return targets;
 }
 
-// Some of the 27 blocks around `key` holds ROI voxels.
-bool roi_near(const VoxelMap& map, BlockKey key) {
-  const VoxelIndex b = block_index(key);
-  for (int i = 0; i < 27; ++i) {
-    const BlockKey beside = pack_block(b.x() + i % 3 - 1, b.y() + i / 3 % 3 - 1, b.z() + i / 9 - 1);
-    if ((map.block_summary(beside) & BlockSummary::kRoi) != 0) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 FrontierTargets extract_frontiers(const VoxelMap& map, const Box& world) {
   const VoxelBounds bounds = VoxelBounds::inside(world, map.resolution_m());
   const std::vector<BlockKey> keys = map.block_keys(world);
+  if (keys.empty()) return {};
+  const BlockSurroundings around(map, keys);
   std::vector<BlockTargets> found(keys.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, keys.size(), 128), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      found[i] = targets_of(map, keys[i], roi_near(map, keys[i]));
+      if (around.has_unknown(keys[i])) found[i] = targets_of(map, keys[i], around.has_roi(keys[i]));
     }
   });
   FrontierTargets targets;

@@ -184,9 +184,11 @@ std::uint32_t Caster::number_new(int x, int y, int z) {
     const BlockKey key = key_at(x, y, z);
     const std::size_t place = BlockDirectory::place_in_chunk(key);
     if (chunk->slots[place] != BlockDirectory::kFree) {
-      if (chunk->summaries[place] == BlockSummary::kComplete) return kClear;
+      const unsigned summary = chunk->summaries[place];
+      constexpr unsigned kRelevant = BlockSummary::kComplete | BlockSummary::kOccupied;
+      if ((summary & kRelevant) == BlockSummary::kComplete) return kClear;
       block.known = map_.block(key);
-      if ((chunk->summaries[place] & BlockSummary::kOccupied) != 0) {
+      if ((summary & BlockSummary::kOccupied) != 0) {
         block.occupied = &block.known->occupied;
       }
     }

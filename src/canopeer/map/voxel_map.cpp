@@ -175,12 +175,17 @@ std::uint32_t VoxelMap::slot_for(BlockKey key, bool with_roi) {
   return slot;
 }
 
-void VoxelMap::summarise(BlockKey key, const BlockMasks& masks) {
+std::uint8_t VoxelMap::summary_of(const BlockMasks& masks) {
   unsigned summary = 0;
   if (masks.occupied.any()) summary |= BlockSummary::kOccupied;
   if (masks.observed.full()) summary |= BlockSummary::kComplete;
   if (masks.roi.any()) summary |= BlockSummary::kRoi;
-  directory_.summary(key) = static_cast<std::uint8_t>(summary);
+  return static_cast<std::uint8_t>(summary);
+}
+
+bool VoxelMap::settled(const BlockLogOdds& log_odds) const {
+  return std::all_of(log_odds.begin(), log_odds.end(),
+                     [this](FixedPoint value) { return value == steps_.min; });
 }
 
 // Adds the steps, clamps, and refreshes the bits of `above` (log-odds ≥ threshold) where stepped.
@@ -232,6 +237,12 @@ UpdateResult VoxelMap::apply(std::span<const BlockUpdate> updates) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, updates.size(), 64), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       const BlockUpdate& update = updates[i];
+      std::uint8_t& summary = directory_.summary(update.key);
+      if ((summary & BlockSummary::kSettled) != 0 && !update.hit.any() && !update.roi_hit.any() &&
+          !update.roi_miss.any()) {
+        outcomes[i].stepped = update.miss.count();  // and nothing moved
+        continue;
+      }
       BlockMasks& masks = masks_[slots[i]];
       const BlockMasks before = masks;
       VoxelMask stepped = update.hit;
@@ -245,9 +256,12 @@ UpdateResult VoxelMap::apply(std::span<const BlockUpdate> updates) {
       const bool changed = !(masks.observed == before.observed &&
                              masks.occupied == before.occupied && masks.roi == before.roi);
       outcomes[i].stepped = stepped.count();
+      if (changed) summary = summary_of(masks);
+      // Space seen free again and again moves no more: from then on it costs nothing.
+      summary &= static_cast<std::uint8_t>(~BlockSummary::kSettled);
+      if (update.miss.full() && settled(log_odds_[slots[i]])) summary |= BlockSummary::kSettled;
       if (!changed) continue;
       outcomes[i].changed = true;
-      summarise(update.key, masks);
       versions_[slots[i]] = updates_;
       outcomes[i].observed = masks.observed.count() - before.observed.count();
       outcomes[i].occupied = masks.occupied.count() - before.occupied.count();
@@ -288,7 +302,7 @@ void VoxelMap::write_log_odds(const VoxelIndex& voxel, double log_odds, bool roi
     observed_voxels_ += (masks.observed.slices[z] & bit) == 0;
     masks.observed.slices[z] |= bit;
   }
-  summarise(block_key(voxel), masks);
+  directory_.summary(block_key(voxel)) = summary_of(masks);
   versions_[slot] = ++updates_;
 }
 

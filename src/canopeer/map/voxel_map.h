@@ -86,12 +86,6 @@ class VoxelMap {
   [[nodiscard]] const BlockDirectory::Chunk* chunk(BlockKey key) const {
     return directory_.chunk(key);
   }
-  /// BlockSummary bits; 0 when nothing is observed there.
-  [[nodiscard]] std::uint8_t block_summary(BlockKey key) const {
-    const BlockDirectory::Chunk* found = directory_.chunk(key);
-    return found == nullptr ? std::uint8_t{0}
-                            : found->summaries[BlockDirectory::place_in_chunk(key)];
-  }
   /// Number of the update that last changed the block's masks; 0: never.
   [[nodiscard]] std::uint64_t block_version(BlockKey key) const;
   /// Observed blocks, sorted; the second form only those that overlap `world`.
@@ -124,7 +118,8 @@ class VoxelMap {
   static void add_log_odds(BlockLogOdds& log_odds, const VoxelMask& hit, const VoxelMask& miss,
                            const Increments& steps, VoxelMask& above);
   std::uint32_t slot_for(BlockKey key, bool with_roi);
-  void summarise(BlockKey key, const BlockMasks& masks);
+  static std::uint8_t summary_of(const BlockMasks& masks);
+  [[nodiscard]] bool settled(const BlockLogOdds& log_odds) const;
   void write_log_odds(const VoxelIndex& voxel, double log_odds, bool roi);
 
   VoxelMapOptions options_;

@@ -47,15 +47,15 @@ void GraphBuilder::set_targets(const VoxelMap& map, FrontierTargets targets,
                                const std::vector<NodeId>& keep) {
   targets_ = TargetSampler(std::move(targets), map.resolution_m(), options_.shares);
   idle_batches_ = 0;
-  const bool full = graph_->node_count() >= options_.max_nodes;
+  const bool no_room = graph_->node_count() >= options_.max_nodes;
   for (std::size_t i = 0; i < graph_->id_count(); ++i) {
     const auto id = static_cast<NodeId>(i);
     ViewNode& node = graph_->node(id);
     if (node.visited || node.removed || node.view.kind == TargetKind::none) continue;
     const bool kept = std::find(keep.begin(), keep.end(), id) != keep.end();
-    const bool wanted = node.view.kind == TargetKind::roi || (full && !kept);
+    const bool wanted = node.view.kind == TargetKind::roi || (no_room && !kept);
     if (!wanted || still_frontier(map, node.view.target_world)) continue;
-    if (full && !kept) {
+    if (no_room && !kept) {
       graph_->remove(id);
     } else {
       node.view.kind = TargetKind::occupied;  // that fruit is seen; the view may still show others
@@ -98,7 +98,17 @@ int GraphBuilder::open_ways(NodeId id) const {
       edges.begin(), edges.end(), [&](const ViewEdge& e) { return !graph_->node(e.to).visited; }));
 }
 
+bool GraphBuilder::full(TargetKind kind) const {
+  const double share = kind == TargetKind::roi        ? options_.shares.roi
+                       : kind == TargetKind::occupied ? options_.shares.occupied
+                                                      : options_.shares.border;
+  return graph_->open_views(kind) >= share * options_.max_nodes;
+}
+
 int GraphBuilder::grow(const VoxelMap& map, const CollisionChecker& checker, WorkMeter& work) {
+  for (const auto kind : {TargetKind::roi, TargetKind::occupied, TargetKind::border}) {
+    targets_.close(kind, full(kind));
+  }
   std::vector<NodeId> added;
   std::vector<Joint> joints;
   for (auto& view : sample_batch(map, checker, work)) {

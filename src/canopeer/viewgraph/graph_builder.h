@@ -33,8 +33,8 @@ class GraphBuilder {
                const ArmIk& ik, const GraphBuilderOptions& options, std::uint64_t seed);
 
   /// New frontiers, re-extracted after a frame: a resting builder wakes. Views whose ROI target is
-  /// no frontier any more stop facing a ROI. When the graph is full, unvisited views whose target
-  /// is none any more make room, except those in `keep`.
+  /// no frontier any more stop facing a ROI. Where a kind is full, unvisited views whose target is
+  /// no frontier any more make room, except those in `keep`.
   void set_targets(const VoxelMap& map, FrontierTargets targets, const std::vector<NodeId>& keep);
 
   /// Puts the arm's present configuration in as a visited node and joins it to its neighbours.
@@ -67,6 +67,8 @@ class GraphBuilder {
   void connect(const Joint& joint);
   /// Edges to views not taken yet.
   [[nodiscard]] int open_ways(NodeId id) const;
+  /// A kind has its share of max_nodes.
+  [[nodiscard]] bool full(TargetKind kind) const;
 
   ViewGraph* graph_;
   const RobotModel* robot_;

@@ -12,8 +12,13 @@ TargetSampler::TargetSampler(FrontierTargets targets, double resolution_m,
                              const TargetShares& shares)
     : targets_(std::move(targets)), resolution_m_(resolution_m), shares_(shares) {}
 
+void TargetSampler::close(TargetKind kind, bool closed) {
+  closed_[static_cast<std::size_t>(kind)] = closed;
+}
+
 bool TargetSampler::empty() const {
-  return targets_.roi.empty() && targets_.occupied.empty() && targets_.border.empty();
+  return !available(TargetKind::roi) && !available(TargetKind::occupied) &&
+         !available(TargetKind::border);
 }
 
 const std::vector<VoxelIndex>& TargetSampler::of_kind(TargetKind kind) const {
@@ -27,7 +32,7 @@ std::optional<TargetKind> TargetSampler::draw_kind(Rng& rng) const {
   constexpr std::array kKinds = {TargetKind::roi, TargetKind::occupied, TargetKind::border};
   const double share = rng.uniform();
   std::size_t i = share < shares_.roi ? 0 : share < shares_.roi + shares_.occupied ? 1 : 2;
-  while (of_kind(kKinds[i]).empty()) i = (i + 1) % kKinds.size();
+  while (!available(kKinds[i])) i = (i + 1) % kKinds.size();
   return kKinds[i];
 }
 

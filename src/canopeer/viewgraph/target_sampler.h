@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -29,19 +30,26 @@ class TargetSampler {
   TargetSampler() = default;
   TargetSampler(FrontierTargets targets, double resolution_m, const TargetShares& shares);
 
-  /// A kind by its share, one that has targets; nothing when there is no target at all.
+  /// No targets of this kind are drawn while it is closed.
+  void close(TargetKind kind, bool closed);
+  /// A kind by its share, an open one that has targets; nothing when there is none.
   [[nodiscard]] std::optional<TargetKind> draw_kind(Rng& rng) const;
   /// A target of that kind, which has some.
   [[nodiscard]] Target draw(TargetKind kind, Rng& rng) const;
+  /// No open kind has targets.
   [[nodiscard]] bool empty() const;
   [[nodiscard]] const FrontierTargets& targets() const { return targets_; }
 
  private:
   [[nodiscard]] const std::vector<VoxelIndex>& of_kind(TargetKind kind) const;
+  [[nodiscard]] bool available(TargetKind kind) const {
+    return !closed_[static_cast<std::size_t>(kind)] && !of_kind(kind).empty();
+  }
 
   FrontierTargets targets_;
   double resolution_m_ = 0.01;
   TargetShares shares_;
+  std::array<bool, 4> closed_{};  // by kind
 };
 
 }  // namespace canopeer

@@ -41,6 +41,12 @@ void ViewGraph::clear() {
   edges_ = 0;
 }
 
+int ViewGraph::open_views(TargetKind kind) const {
+  return static_cast<int>(std::count_if(nodes_.begin(), nodes_.end(), [kind](const ViewNode& n) {
+    return n.view.kind == kind && !n.visited && !n.removed;
+  }));
+}
+
 std::optional<double> ViewGraph::edge_time(NodeId a, NodeId b) const {
   for (const auto& edge : node(a).edges) {
     if (edge.to == b) return edge.time_s;

@@ -52,6 +52,8 @@ class ViewGraph {
   /// Ids ever given, removed nodes included: valid ids are 0 … id_count() − 1.
   [[nodiscard]] std::size_t id_count() const { return nodes_.size(); }
   [[nodiscard]] int node_count() const { return live_nodes_; }
+  /// Views of a kind not visited yet.
+  [[nodiscard]] int open_views(TargetKind kind) const;
   [[nodiscard]] int edge_count() const { return edges_; }
   [[nodiscard]] std::optional<double> edge_time(NodeId a, NodeId b) const;
 
