@@ -83,8 +83,8 @@ class VoxelSink {
   double free_, occupied_;
 };
 
-// Reads the nodes of a tree. OctoMap's own reader checks neither the stream nor the depth: it
-// recurses without end on a file that was cut off.
+// Reads the nodes of a tree. OctoMap's own reader takes an `.ot` file that was cut off for a whole
+// one, and recurses as deep as damaged bytes tell it.
 class TreeReader {
  public:
   TreeReader(const Header& header, VoxelSink sink)
