@@ -18,12 +18,13 @@ namespace {
 void report_gaps(const MapFuseArguments& arguments, const Recording& recording) {
   const PoseGaps gaps = recording.gaps();
   if (gaps.observations == 0) return;
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "%d of %zu frames have no pose: none before or after, or more than %g s between "
-                "(first at %.6f s)",
-                gaps.observations, recording.size() + static_cast<std::size_t>(gaps.observations),
-                arguments.max_pose_gap_s, gaps.first_s);
+  char text[240];
+  std::snprintf(
+      text, sizeof text,
+      "%d of %zu frames have no pose: they lie outside the trajectory or in a gap of more "
+      "than %g s (the first at %.6f s)",
+      gaps.observations, recording.size() + static_cast<std::size_t>(gaps.observations),
+      arguments.max_pose_gap_s, gaps.first_s);
   if (arguments.strict) stop_with(kBadInput, {arguments.dataset + ": " + text});
   if (!arguments.quiet) std::fprintf(stderr, "canopeer: passed over: %s\n", text);
 }

@@ -127,6 +127,11 @@ Expected<std::unique_ptr<Recording>> open_recording(const MapFuseArguments& argu
         "folder of .ply or .pcd clouds");
   }
   if (!is_tum_sequence(directory)) {
+    if (arguments.roi == "color") {
+      return fail(arguments.dataset +
+                  ": --roi color needs the colour images of an RGB-D sequence; clouds say what is "
+                  "fruit by a property `roi`");
+    }
     auto folder =
         open_cloud_folder(directory, {arguments.max_pose_gap_s, fs::path(arguments.trajectory)});
     if (!folder) {
@@ -139,8 +144,13 @@ Expected<std::unique_ptr<Recording>> open_recording(const MapFuseArguments& argu
   auto sequence = open_tum_sequence(
       directory, {arguments.max_difference_s, arguments.max_pose_gap_s, arguments.trajectory});
   if (!sequence) return tl::unexpected(sequence.error());
-  return std::make_unique<TumRecording>(*std::move(sequence), *std::move(camera),
-                                        arguments.roi == "color");
+  const bool by_color = arguments.roi == "color";
+  if (by_color && static_cast<std::size_t>(sequence->without_color) == sequence->frames.size()) {
+    return fail(arguments.dataset +
+                ": --roi color needs colour images, but none is near a depth image in time; see "
+                "rgb.txt and --max-difference");
+  }
+  return std::make_unique<TumRecording>(*std::move(sequence), *std::move(camera), by_color);
 }
 
 Expected<std::int64_t> fuse_observation(VoxelMap& map, const Observation& observation,

@@ -88,7 +88,6 @@ TEST_F(MapFuse, ATumSequenceBecomesTheMapOfItsFrames) {
   for (const auto& view : scene.views) fuse(direct, view.frame, {});
   std::int64_t different = 0;
   for (const BlockKey key : direct.block_keys()) {
-    ASSERT_NE(map.block(key), nullptr);
     for_each_voxel(key, VoxelMask::all(), [&](const VoxelIndex& v) {
       different += direct.occupancy_log_odds(v) != map.occupancy_log_odds(v);
     });
@@ -192,7 +191,6 @@ TEST_F(MapFuse, BadRecordingsAreNamedWithFileAndLine) {
   expect_refused(directory_ / "nowhere", {"nowhere", "depth.txt"});
   fs::create_directories(directory_ / "empty");
   expect_refused(directory_ / "empty", {"empty", ".ply", "depth.txt"});
-  expect_refused(dataset, {"--max-difference"}, {"--max-difference", "-1"});
 
   const std::string camera = *read_file(dataset / "camera.yaml");
   write(dataset / "camera.yaml", "fx: 100\n");
@@ -203,11 +201,16 @@ TEST_F(MapFuse, BadRecordingsAreNamedWithFileAndLine) {
   expect_refused(dataset, {"--intrinsics", "camera.yaml"});
   write(dataset / "camera.yaml", camera + "\n");
 
+  const std::string color = *read_file(dataset / "rgb.txt");
+  write(dataset / "rgb.txt", "900 rgb/0.png\n");
+  expect_refused(dataset, {"rgb.txt", "--max-difference"}, {"--roi", "color"});
+  write(dataset / "rgb.txt", color);
+
   const std::string poses = *read_file(dataset / "groundtruth.txt");
   write(dataset / "groundtruth.txt", poses + "3 1 2\n");
   expect_refused(dataset, {"groundtruth.txt:6", "timestamp tx ty tz qx qy qz qw"});
-  write(dataset / "groundtruth.txt", "-0.1 1e9 0 0 0 0 0 1\n0.1 1e9 0 0 0 0 0 1\n");
-  expect_refused(dataset, {"0.png", "m from the origin"});
+  write(dataset / "groundtruth.txt", "-0.1 1e9 0 0 0 0 0 1\n1.1 1e9 0 0 0 0 0 1\n");
+  expect_refused(dataset, {"0.png", "m from the origin"}, {"--max-gap", "2"});
   write(dataset / "groundtruth.txt", poses);
 
   const std::string image = *read_file(dataset / "depth/1.png");

@@ -112,8 +112,12 @@ class TreeReader {
   }
 
  private:
-  static tl::unexpected<Error> cut_off() { return fail("the file ends within the tree"); }
-  static tl::unexpected<Error> too_deep() { return fail("the tree is deeper than 16 levels"); }
+  static tl::unexpected<Error> cut_off() {
+    return fail("the file ends within the tree: it was cut off; copy or write it again");
+  }
+  static tl::unexpected<Error> too_deep() {
+    return fail("the tree is deeper than 16 levels: the file was damaged");
+  }
 
   Expected<void> read_full(const VoxelIndex& corner, int level) {
     const std::size_t bytes = kFullNodeBytes + header_.color_bytes;
