@@ -31,10 +31,31 @@ struct SceneArguments {
   std::string out;
 };
 
+struct MapFuseArguments {
+  std::string dataset;
+  std::string out;
+  double resolution_m = 0.01;
+  double max_range_m = 3.0;
+  int every = 1;
+  int threads = 0;  ///< 0: all cores
+  std::string camera;
+  std::vector<double> intrinsics;  ///< fx, fy, cx, cy in pixels
+  std::optional<double> depth_units_per_m;
+  std::string trajectory;
+  double max_pose_gap_s = 0.25;
+  double max_difference_s = 0.02;
+  std::string roi = "none";
+  bool strict = false;
+  bool quiet = false;
+};
+
 // The commands. Each ends by returning, or by throwing Stop.
 void run(const RunArguments& arguments);
 void report(const std::string& directory);
 void scene_render(const SceneArguments& arguments);
 void scene_inspect(const SceneArguments& arguments);
+void map_info(const std::string& file);
+void map_convert(const std::string& in, const std::string& out);
+void map_fuse(const MapFuseArguments& arguments);
 
 }  // namespace canopeer::app

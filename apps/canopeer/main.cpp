@@ -52,6 +52,68 @@ void add_scene(CLI::App& app, SceneArguments& arguments) {
   inspect->callback([&arguments] { scene_inspect(arguments); });
 }
 
+struct MapArguments {
+  std::string in;
+  std::string out;
+  MapFuseArguments fuse;
+};
+
+void add_map_fuse(CLI::App& map, MapFuseArguments& a) {
+  CLI::App* fuse = map.add_subcommand(
+      "fuse", "Make a map of a recording: a TUM RGB-D sequence, or a folder of .ply/.pcd clouds");
+  fuse->add_option("dataset", a.dataset, "The recording's folder")->required();
+  fuse->add_option("--out", a.out, "Map to write: .cmap, .ot, .bt or .ply")->required();
+  fuse->add_option("--resolution", a.resolution_m, "Side of a voxel in metres")
+      ->check(CLI::Range(0.0005, 10.0))
+      ->capture_default_str();
+  fuse->add_option("--max-range", a.max_range_m, "Farther points only free space; metres")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->capture_default_str();
+  fuse->add_option("--every", a.every, "Take every N-th frame only")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  fuse->add_option("--threads", a.threads, "Threads at most (0: all cores)")
+      ->check(CLI::Range(0, 1024));
+  fuse->add_option("--camera", a.camera,
+                   "Camera file (YAML); default: camera.yaml in the recording's folder");
+  fuse->add_option("--intrinsics", a.intrinsics, "FX,FY,CX,CY in pixels, instead of a camera file")
+      ->delimiter(',')
+      ->expected(4);
+  fuse->add_option("--depth-factor", a.depth_units_per_m,
+                   "What a metre is in the depth images; default: the camera file's, or 5000")
+      ->check(CLI::Range(1e-3, 1e9));
+  fuse->add_option("--trajectory", a.trajectory,
+                   "Poses `timestamp tx ty tz qx qy qz qw`; default: the recording's own");
+  fuse->add_option("--max-gap", a.max_pose_gap_s,
+                   "Seconds that poses may lie apart to interpolate between them")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  fuse->add_option("--max-difference", a.max_difference_s,
+                   "Seconds between a depth image and its colour image")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  fuse->add_option("--roi", a.roi, "Which points are fruit: none, or color (by colour images)")
+      ->check(CLI::IsMember({"none", "color"}))
+      ->capture_default_str();
+  fuse->add_flag("--strict", a.strict, "A frame without a pose is an error, not passed over");
+  fuse->add_flag("--quiet", a.quiet, "Print errors only");
+  fuse->callback([&a] { map_fuse(a); });
+}
+
+void add_map(CLI::App& app, MapArguments& arguments) {
+  CLI::App* map = app.add_subcommand("map", "Look at maps, convert them, make them of recordings");
+  map->require_subcommand(1);
+  CLI::App* info = map->add_subcommand("info", "Print what is in a map file (.cmap, .ot, .bt)");
+  info->add_option("file", arguments.in, "The map")->required();
+  info->callback([&arguments] { map_info(arguments.in); });
+  CLI::App* convert = map->add_subcommand(
+      "convert", "Write a map in another format, by the ending; ROI trees lie beside as NAME_roi");
+  convert->add_option("in", arguments.in, "Map to read: .cmap, .ot or .bt")->required();
+  convert->add_option("out", arguments.out, "Map to write: .cmap, .ot, .bt or .ply")->required();
+  convert->callback([&arguments] { map_convert(arguments.in, arguments.out); });
+  add_map_fuse(*map, arguments.fuse);
+}
+
 int parse_and_run(int argc, char** argv) {
   CLI::App app{
       "Plans where a robot's camera looks next, so that every fruit behind the leaves is found."};
@@ -62,6 +124,8 @@ int parse_and_run(int argc, char** argv) {
   add_run(app, run_arguments);
   add_report(app, report_directory);
   add_scene(app, scene_arguments);
+  MapArguments map_arguments;
+  add_map(app, map_arguments);
   app.add_subcommand("version", "Print the version")->callback([] {
     std::printf("canopeer %s\n", CANOPEER_VERSION);
   });

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "canopeer/config/robot_file.h"
 #include "canopeer/mission/mission.h"
@@ -29,6 +30,13 @@ Overrides overrides_of(const RunArguments& arguments) {
   }
   if (!arguments.compute_table.empty()) o.emplace_back("compute_table", arguments.compute_table);
   return o;
+}
+
+std::string line_of(const MissionProgress& p) {
+  char text[160];
+  std::snprintf(text, sizeof text, "segment %d/%d  mission time %6.1f s  %4d views  %3d fruits",
+                p.segment + 1, p.segments, p.time_s, p.views, p.fruits);
+  return text;
 }
 
 RunHeader header_of(const MissionFile& file) {
@@ -102,7 +110,9 @@ void run(const RunArguments& arguments) {
   Mission mission(robot, ik, simulation.judge().checker(), simulation.ports(), file.mission, stop);
   simulation.watch_map(&mission.map());
   ProgressBar bar(arguments.quiet);
-  mission.on_progress([&](const MissionProgress& progress) { bar.show(progress); });
+  mission.on_progress([&](const MissionProgress& progress) {
+    bar.show(progress.fraction, line_of(progress), progress.segment);
+  });
 
   RecordWriter writer = value_or_stop(RecordWriter::create(out, header_of(file)), kFailed);
   const auto outcome = mission.run(writer);

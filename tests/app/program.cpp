@@ -28,7 +28,7 @@ void redirect(int descriptor, const std::filesystem::path& path) {
 }
 
 ProgramResult run(const std::vector<std::string>& arguments,
-                  const std::function<void(pid_t)>& meanwhile) {
+                  const std::function<void(pid_t, const std::filesystem::path& err)>& meanwhile) {
   const TemporaryDirectory directory;
   const auto out = directory / "out";
   const auto err = directory / "err";
@@ -44,25 +44,35 @@ ProgramResult run(const std::vector<std::string>& arguments,
     if (chdir(CANOPEER_SOURCE_DIR) == 0) execv(argv[0], argv.data());
     _exit(127);
   }
-  meanwhile(child);
+  meanwhile(child, err);
   int status = 0;
   waitpid(child, &status, 0);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), content(out), content(err)};
 }
 
+void interrupt_when(pid_t child, const std::function<bool()>& due) {
+  while (!due() && waitpid(child, nullptr, WNOHANG) == 0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  kill(child, SIGINT);
+}
+
 }  // namespace
 
 ProgramResult canopeer(const std::vector<std::string>& arguments) {
-  return run(arguments, [](pid_t) {});
+  return run(arguments, [](pid_t, const std::filesystem::path&) {});
 }
 
 ProgramResult canopeer_interrupted(const std::vector<std::string>& arguments,
                                    const std::filesystem::path& file) {
-  return run(arguments, [&](pid_t child) {
-    while (!std::filesystem::exists(file) && waitpid(child, nullptr, WNOHANG) == 0) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
-    kill(child, SIGINT);
+  return run(arguments, [&](pid_t child, const std::filesystem::path&) {
+    interrupt_when(child, [&] { return std::filesystem::exists(file); });
+  });
+}
+
+ProgramResult canopeer_interrupted_when_it_speaks(const std::vector<std::string>& arguments) {
+  return run(arguments, [&](pid_t child, const std::filesystem::path& err) {
+    interrupt_when(child, [&] { return !content(err).empty(); });
   });
 }
 

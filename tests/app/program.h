@@ -21,6 +21,9 @@ ProgramResult canopeer(const std::vector<std::string>& arguments);
 ProgramResult canopeer_interrupted(const std::vector<std::string>& arguments,
                                    const std::filesystem::path& file);
 
+/// The same, but SIGINT is sent as soon as it has written to standard error.
+ProgramResult canopeer_interrupted_when_it_speaks(const std::vector<std::string>& arguments);
+
 /// A fresh directory of this test's own, removed at the end.
 class TemporaryDirectory {
  public:

@@ -41,6 +41,8 @@ constexpr HeaderOrigin kOrigins[] = {
     {"nlohmann/", "nlohmann-json3-dev"},
     {"tinyxml2.h", "libtinyxml2-dev"},
     {"png.h", "libpng-dev"},
+    {"zstd.h", "libzstd-dev"},
+    {"zlib.h", "zlib1g-dev"},
     {"tl/", "libexpected-dev"},
     {"gtest/", "libgtest-dev"},
     {"benchmark/", "libbenchmark-dev"},

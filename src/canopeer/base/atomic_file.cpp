@@ -3,22 +3,30 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <sstream>
 #include <system_error>
 
 namespace canopeer {
 
 Expected<void> write_file(const std::filesystem::path& path, std::string_view content) {
   const std::filesystem::path temporary = path.string() + ".part";
+  std::error_code code;
   {
     std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
     out.write(content.data(), static_cast<std::streamsize>(content.size()));
     out.flush();
-    if (!out) return fail(temporary.string() + ": cannot write: " + std::strerror(errno));
+    if (!out) {
+      const std::string reason = std::strerror(errno);
+      out.close();
+      std::filesystem::remove(temporary, code);
+      return fail(temporary.string() + ": cannot write: " + reason);
+    }
   }
-  std::error_code code;
   std::filesystem::rename(temporary, path, code);
-  if (code) return fail(path.string() + ": cannot write: " + code.message());
+  if (code) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    return fail(path.string() + ": cannot write: " + code.message());
+  }
   return {};
 }
 
@@ -28,9 +36,16 @@ Expected<std::string> read_file(const std::filesystem::path& path) {
     return fail(path.string() + ": is a directory, expected a file");
   std::ifstream in(path, std::ios::binary);
   if (!in) return fail(path.string() + ": cannot read: " + std::strerror(errno));
-  std::ostringstream content;
-  content << in.rdbuf();
-  return content.str();
+  constexpr std::size_t kChunk = std::size_t{1} << 20;
+  std::string content;
+  while (in) {
+    const std::size_t before = content.size();
+    content.resize(before + kChunk);
+    in.read(&content[before], static_cast<std::streamsize>(kChunk));
+    content.resize(before + static_cast<std::size_t>(in.gcount()));
+  }
+  if (in.bad()) return fail(path.string() + ": cannot read: " + std::strerror(errno));
+  return content;
 }
 
 }  // namespace canopeer

@@ -17,4 +17,16 @@ PointCloud occupied_cloud(const VoxelMap& map, const MapCloudOptions& options) {
   return cloud;
 }
 
+PointCloud roi_cloud(const VoxelMap& map, const MapCloudOptions& options) {
+  PointCloud cloud;
+  cloud.points.reserve(static_cast<std::size_t>(map.roi_voxels()));
+  for (const BlockKey key : map.block_keys()) {
+    for_each_voxel(key, map.block(key)->roi, [&](const VoxelIndex& voxel) {
+      cloud.points.push_back(voxel_centre(voxel, map.resolution_m()).cast<float>());
+      if (options.colors) cloud.colors.push_back(options.roi);
+    });
+  }
+  return cloud;
+}
+
 }  // namespace canopeer

@@ -14,4 +14,7 @@ struct MapCloudOptions {
 /// The centres of the occupied voxels, world frame, sorted by block, then z, y, x.
 PointCloud occupied_cloud(const VoxelMap& map, const MapCloudOptions& options = {});
 
+/// The same of the ROI voxels.
+PointCloud roi_cloud(const VoxelMap& map, const MapCloudOptions& options = {});
+
 }  // namespace canopeer

@@ -1,23 +1,40 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "canopeer/base/expected.h"
 #include "canopeer/map/voxel_map.h"
 
 namespace canopeer {
 
-/// Writes the occupancy as an OctoMap `.ot` file (id OcTree): a leaf with its log-odds for every
-/// free or occupied voxel, equal siblings pruned, inner nodes the maximum of their children. The
-/// whole file or none. Fails beyond OctoMap's ± 32 768 voxels.
+/// Files of OctoMap. `.ot` (type OcTree) holds a leaf with its log-odds for every known voxel,
+/// equal siblings pruned, inner nodes the maximum of their children; `.bt` holds but free and
+/// occupied. The whole file or none. Writing fails beyond OctoMap's ± 32 768 voxels.
 [[nodiscard]] Expected<void> write_ot(const VoxelMap& map, const std::filesystem::path& path);
+[[nodiscard]] Expected<void> write_bt(const VoxelMap& map, const std::filesystem::path& path);
 
-/// The ROI log-odds as a tree of their own; voxels that never held an end point are not in it.
+/// The ROI as a tree of its own; voxels without ROI log-odds are not in it.
 [[nodiscard]] Expected<void> write_roi_ot(const VoxelMap& map, const std::filesystem::path& path);
+[[nodiscard]] Expected<void> write_roi_bt(const VoxelMap& map, const std::filesystem::path& path);
 
-/// Reads the occupancy of an `.ot` file; `options.resolution_m` is replaced by the file's
-/// resolution. Fails on a file that is cut off or holds no OcTree.
-[[nodiscard]] Expected<VoxelMap> read_ot(const std::filesystem::path& path,
-                                         VoxelMapOptions options = {});
+/// Reads the occupancy of an `.ot` file (types OcTree, OcTreeStamped and ColorOcTree) or of a `.bt`
+/// file; which of them it is stands in it. `options.resolution_m` is replaced by the file's; the
+/// leaves of a `.bt` file get the log-odds of clamp_min and clamp_max. Every byte is checked; a
+/// small file cannot make a huge map.
+[[nodiscard]] Expected<VoxelMap> read_octomap(const std::filesystem::path& path,
+                                              VoxelMapOptions options = {});
+
+/// Reads such a file's values as the ROI log-odds of `map`, whose resolution must be the file's.
+/// After an error the map holds a part of them.
+[[nodiscard]] Expected<void> read_octomap_roi(const std::filesystem::path& path, VoxelMap& map);
+
+/// The same from the bytes of a file; errors do not name it.
+[[nodiscard]] Expected<VoxelMap> parse_octomap(std::string_view bytes,
+                                               VoxelMapOptions options = {});
+[[nodiscard]] Expected<void> parse_octomap_roi(std::string_view bytes, VoxelMap& map);
+
+/// True when the bytes begin as an `.ot` or `.bt` file does.
+[[nodiscard]] bool is_octomap(std::string_view bytes);
 
 }  // namespace canopeer

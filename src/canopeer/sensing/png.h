@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "canopeer/base/expected.h"
 #include "canopeer/sensing/image.h"
@@ -10,11 +11,22 @@ namespace canopeer {
 /// Writes 8 bit RGB. The error names the file.
 [[nodiscard]] Expected<void> write_png(const std::filesystem::path& path, const ColorImage& image);
 
-/// Writes 16 bit grey in millimetres (0: no return), the usual exchange format of depth images.
+/// Writes 16 bit grey (0: no return), the usual exchange format of depth images; in millimetres
+/// unless `units_per_m` says otherwise.
 [[nodiscard]] Expected<void> write_depth_png(const std::filesystem::path& path,
-                                             const DepthImage& depth);
+                                             const DepthImage& depth, double units_per_m = 1000.0);
 
-/// Reads 8 bit RGB (grey, palette and alpha are converted).
+/// Reads 8 bit RGB (grey, palette and alpha are converted). As the other readers it refuses an
+/// image larger than the file can hold, before it takes the memory.
 [[nodiscard]] Expected<ColorImage> read_png(const std::filesystem::path& path);
+
+/// Reads 16 bit grey, `units_per_m` of which are a metre (> 0; 1000 for what write_depth_png
+/// writes, 5000 in the TUM RGB-D data sets). 0, no return, stays 0.
+[[nodiscard]] Expected<DepthImage> read_depth_png(const std::filesystem::path& path,
+                                                  double units_per_m);
+
+/// The same from the bytes of a file; errors do not name it.
+[[nodiscard]] Expected<ColorImage> parse_png(std::string_view bytes);
+[[nodiscard]] Expected<DepthImage> parse_depth_png(std::string_view bytes, double units_per_m);
 
 }  // namespace canopeer

@@ -1,0 +1,63 @@
+// fuzz_seeds DIR writes small valid files for the fuzz targets to start from, into DIR/TARGET/.
+#include <cstdio>
+#include <filesystem>
+
+#include "ball_scene.h"
+#include "canopeer/base/atomic_file.h"
+#include "canopeer/map/cmap_file.h"
+#include "canopeer/map/map_cloud.h"
+#include "canopeer/map/octomap_file.h"
+#include "canopeer/sensing/png.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace canopeer;
+
+constexpr char kPcdHeader[] =
+    "VERSION 0.7\nFIELDS x y z rgb roi\nSIZE 4 4 4 4 4\nTYPE F F F U F\nCOUNT 1 1 1 1 1\nWIDTH "
+    "1\nHEIGHT 1\nVIEWPOINT 0 0 1 1 0 0 0\nPOINTS 1\nDATA ";
+constexpr char kPlyText[] =
+    "ply\nformat ascii 1.0\nelement other 1\nproperty list uchar int a\nelement vertex 1\nproperty "
+    "float x\nproperty double y\nproperty short z\nproperty uchar red\nend_header\n2 1 2\n1 2 3 "
+    "4\n";
+
+bool write_all(const fs::path& root) {
+  for (const char* target : {"octomap", "cmap", "cloud", "png", "trajectory"}) {
+    fs::create_directories(root / target);
+  }
+  const VoxelMap map = BallScene::map(1, 1, 0.2);
+  const std::string twenty(20, '\x01');
+  const std::string packed = std::string("\x16\0\0\0\x14\0\0\0\x13", 9) + twenty;
+  DepthImage depth(7, 5, 1.0F);
+  Expected<void> results[] = {
+      write_ot(map, root / "octomap/full.ot"),
+      write_roi_bt(map, root / "octomap/binary.bt"),
+      write_cmap(map, root / "cmap/map.cmap"),
+      write_ply(root / "cloud/map.ply", roi_cloud(map)),
+      write_file(root / "cloud/text.ply", kPlyText),
+      write_file(root / "cloud/text.pcd", std::string(kPcdHeader) + "ascii\n1 2 3 4 5\n"),
+      write_file(root / "cloud/binary.pcd", std::string(kPcdHeader) + "binary\n" + twenty),
+      write_file(root / "cloud/packed.pcd",
+                 std::string(kPcdHeader) + "binary_compressed\n" + packed),
+      write_depth_png(root / "png/depth.png", depth, 5000.0),
+      write_png(root / "png/color.png", ColorImage(7, 5)),
+      write_file(root / "trajectory/poses.txt", "# t\n0 1 2 3 0 0 0 1\n1.5 1 2 3 0 0 1 0\n"),
+      write_file(root / "trajectory/list.txt", "1.25 depth/a.png\n"),
+      write_file(root / "trajectory/pairs.txt", "1.25 depth/a.png 1.26 rgb/a.png\n")};
+  for (const auto& result : results) {
+    if (!result) std::fprintf(stderr, "fuzz_seeds: %s\n", result.error().message.c_str());
+    if (!result) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: fuzz_seeds DIR\n");
+    return 2;
+  }
+  return write_all(argv[1]) ? 0 : 1;
+}

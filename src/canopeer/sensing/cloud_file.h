@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "canopeer/base/expected.h"
+#include "canopeer/sensing/point_cloud.h"
+
+namespace canopeer {
+
+/// A point cloud as a file gives it.
+struct CloudFile {
+  PointCloud cloud;
+  /// The property `roi` of each point, 0 … 1 (whole numbers: 0 or not); empty when the file has
+  /// none. NaN: nobody looked.
+  std::vector<float> roi_confidence;
+  /// What a PCD file's VIEWPOINT says; nothing when that is the default, which writers put there
+  /// when they know no pose.
+  std::optional<Pose> T_world_points;
+};
+
+/// Reads `.ply` (ASCII, binary of either byte order) or `.pcd` (ASCII, binary, compressed), by the
+/// ending. Of all properties x, y, z, normals, colours and `roi` are kept. Points may be NaN. The
+/// error names the file and, in text, the line. Memory stays in proportion to the file.
+[[nodiscard]] Expected<CloudFile> read_cloud(const std::filesystem::path& path);
+
+/// The same from the bytes of a file; `name` stands for it in errors.
+[[nodiscard]] Expected<CloudFile> parse_ply(std::string_view bytes, const std::string& name);
+[[nodiscard]] Expected<CloudFile> parse_pcd(std::string_view bytes, const std::string& name);
+
+}  // namespace canopeer
