@@ -60,8 +60,7 @@ void write_material(std::ostringstream& out, const Painted& s) {
 std::string dae(const std::vector<Painted>& surfaces, const DaeStyle& style) {
   std::ostringstream out;
   out.precision(17);
-  const char* const axis =
-      style.up == UpAxis::x ? "X_UP" : style.up == UpAxis::y ? "Y_UP" : "Z_UP";
+  const char* const axis = style.up == UpAxis::x ? "X_UP" : style.up == UpAxis::y ? "Y_UP" : "Z_UP";
   out << "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<COLLADA "
          "xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">\n<asset><unit "
          "name=\""
@@ -79,7 +78,8 @@ std::string dae(const std::vector<Painted>& surfaces, const DaeStyle& style) {
     out << "<material id=\"" << s.material << "\" name=\"" << s.material
         << "\"><instance_effect url=\"#" << s.material << "-fx\"/></material>";
   }
-  out << "</library_materials>\n<library_geometries><geometry id=\"geo\" name=\"plant_mesh\"><mesh>";
+  out << "</library_materials>\n<library_geometries><geometry id=\"geo\" "
+         "name=\"plant_mesh\"><mesh>";
   const Eigen::Affine3d T_file_world =
       (Eigen::Affine3d(style.unit_m * upright(style.up)) * style.outer * style.node).inverse();
   std::vector<double> positions;
@@ -182,8 +182,8 @@ std::string colored_ply(const std::vector<Painted>& surfaces) {
       << faces << "\nproperty list uchar int vertex_indices\nend_header\n";
   for (const Painted& s : surfaces) {
     for (const auto& v : s.mesh.vertices) {
-      out << v.x() << ' ' << v.y() << ' ' << v.z() << ' ' << int{s.color.r} << ' '
-          << int{s.color.g} << ' ' << int{s.color.b} << '\n';
+      out << v.x() << ' ' << v.y() << ' ' << v.z() << ' ' << int{s.color.r} << ' ' << int{s.color.g}
+          << ' ' << int{s.color.b} << '\n';
     }
   }
   std::uint32_t offset = 0;

@@ -14,7 +14,8 @@ struct Painted {
   std::string material;
   TriangleMesh mesh;
   Rgb color{200, 40, 10};
-  std::string texture;  ///< file name; empty: none. Texture coordinates are x and y of the vertices.
+  std::string
+      texture;  ///< file name; empty: none. Texture coordinates are x and y of the vertices.
 };
 
 /// How a COLLADA file says it.
@@ -26,8 +27,8 @@ struct DaeStyle {
   Eigen::Affine3d outer = Eigen::Affine3d::Identity();  ///< matrix of the node around it
 };
 
-/// The COLLADA text that means `surfaces`: one mesh of several materials, with coordinates such that
-/// unit, axis and node matrices take them where they should be.
+/// The COLLADA text that means `surfaces`: one mesh of several materials, with coordinates such
+/// that unit, axis and node matrices take them where they should be.
 std::string dae(const std::vector<Painted>& surfaces, const DaeStyle& style = {});
 
 std::string obj(const std::vector<Painted>& surfaces, const std::string& mtl_file);

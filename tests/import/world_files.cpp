@@ -31,8 +31,8 @@ void WorldFiles::add_model(const std::string& name, const std::string& link_cont
   const std::string folder = under + "/" + name + "/";
   add(folder + "model.config", "<?xml version=\"1.0\"?><model><name>" + name +
                                    "</name><sdf version=\"1.6\">model.sdf</sdf></model>");
-  add(folder + "model.sdf", "<?xml version=\"1.0\"?>\n<sdf version=\"1.6\">\n<model name=\"" + name +
-                                "\">\n<link name=\"link\">\n" + link_content +
+  add(folder + "model.sdf", "<?xml version=\"1.0\"?>\n<sdf version=\"1.6\">\n<model name=\"" +
+                                name + "\">\n<link name=\"link\">\n" + link_content +
                                 "\n</link></model></sdf>");
 }
 
