@@ -126,6 +126,21 @@ TEST(SdfWorld, IncludesAreFoundUnderTheModelPathAndBesideTheFile) {
   expect_near(place_of(world, "own"), Vec3(3, 0, 0));
 }
 
+TEST(SdfWorld, TheWorkingDirectoryHidesNothingSilently) {
+  const test::WorldFiles files;
+  files.add_model("own", test::box_visual("1 1 1"), "beside");
+  files.add_model("own", test::box_visual("9 9 9"), "elsewhere/beside");
+  const auto path = files.add_world("<include><uri>beside/own</uri></include>");
+  const auto home = std::filesystem::current_path();
+  std::filesystem::current_path(files.path() / "elsewhere");
+  const std::string message = error_of(files, path);
+  std::filesystem::current_path(files.path());
+  const std::string none = error_of(files, path);
+  std::filesystem::current_path(home);
+  EXPECT_NE(message.find("run from another directory"), std::string::npos) << message;
+  EXPECT_EQ(none, "");
+}
+
 TEST(SdfWorld, AnIncludedModelMayIncludeItsNeighbour) {
   const test::WorldFiles files;
   files.add_model("leaf", test::box_visual("1 1 1"), "models/plant/parts");

@@ -62,6 +62,17 @@ std::uint8_t level(float x) {
   return static_cast<std::uint8_t>(std::clamp(x >= 0.0F ? x : 0.0F, 0.0F, 1.0F) * 255.0F + 0.5F);
 }
 
+/// A linear share of light as an sRGB level.
+std::uint8_t srgb_level(float x) {
+  x = std::clamp(x >= 0.0F ? x : 0.0F, 0.0F, 1.0F);
+  return level(x <= 0.0031308F ? 12.92F * x : 1.055F * std::pow(x, 1.0F / 2.4F) - 0.055F);
+}
+
+Rgb product(Rgb a, Rgb b) {
+  const auto scaled = [](int x, int y) { return static_cast<std::uint8_t>((x * y + 127) / 255); };
+  return {scaled(a.r, b.r), scaled(a.g, b.g), scaled(a.b, b.b)};
+}
+
 Image<std::uint8_t> grey_of(const ColorImage& color) {
   Image<std::uint8_t> grey(color.width(), color.height());
   for (std::size_t i = 0; i < grey.pixels().size(); ++i) {
@@ -157,7 +168,9 @@ MaterialReader::Material MaterialReader::read(const aiMaterial& material) {
   aiColor4D color;
   if (material.Get(AI_MATKEY_BASE_COLOR, color) == aiReturn_SUCCESS ||
       material.Get(AI_MATKEY_COLOR_DIFFUSE, color) == aiReturn_SUCCESS) {
-    result.color = {level(color.r), level(color.g), level(color.b)};
+    result.color = dialect_ == MaterialDialect::gltf
+                       ? Rgb{srgb_level(color.r), srgb_level(color.g), srgb_level(color.b)}
+                       : Rgb{level(color.r), level(color.g), level(color.b)};
   }
   const std::string picture =
       first_texture(material, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
@@ -184,6 +197,10 @@ void MaterialReader::paint(unsigned index, MeshPiece* piece) {
   piece->names.material = material.name;
   piece->names.textures = material.texture_names;
   piece->color = material.color;
+  if (dialect_ == MaterialDialect::collada) piece->vertex_colors.clear();
+  if (dialect_ == MaterialDialect::gltf) {
+    for (Rgb& c : piece->vertex_colors) c = product(c, material.color);
+  }
   if (piece->uv.empty()) return;
   piece->texture = material.texture;
 }

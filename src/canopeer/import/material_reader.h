@@ -13,12 +13,18 @@ struct aiScene;
 
 namespace canopeer {
 
+/// What colours mean differs between formats: glTF's material colours are linear and multiply
+/// vertex colours; viewers of COLLADA show no vertex colours.
+enum class MaterialDialect { plain, collada, gltf };
+
 /// Colours, textures and their names of one assimp scene's materials.
 class MaterialReader {
  public:
   /// All outlive the reader. A texture that cannot be read becomes one notice.
   MaterialReader(const aiScene& scene, std::filesystem::path mesh_file, TextureStore& textures,
                  std::vector<std::string>* notices);
+
+  void set_dialect(MaterialDialect dialect) { dialect_ = dialect; }
 
   /// Gives `piece` what material `index` says.
   void paint(unsigned index, MeshPiece* piece);
@@ -36,6 +42,7 @@ class MaterialReader {
 
   const aiScene& scene_;
   std::filesystem::path mesh_file_;
+  MaterialDialect dialect_ = MaterialDialect::plain;
   TextureStore& textures_;
   std::vector<std::string>* notices_;
   std::map<unsigned, Material> materials_;

@@ -116,7 +116,7 @@ class Gatherer {
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
       if (node.mMeshes[i] >= scene_.mNumMeshes) continue;
       const aiMesh& mesh = *scene_.mMeshes[node.mMeshes[i]];
-      MeshPiece piece = placed(to_piece(mesh), T_world_node);
+      MeshPiece piece = placed(without_copies(to_piece(mesh)), T_world_node);
       if (piece.mesh.triangles.empty()) continue;
       piece.names.node = node.mName.C_Str();
       piece.names.file = path_.filename().string();
@@ -161,13 +161,17 @@ Expected<MeshFile> read_mesh_file(const fs::path& path, const MeshFileOptions& o
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   MeshFile file;
   try {
-    const aiScene* const scene = importer.ReadFile(
-        path.string(), aiProcess_Triangulate | aiProcess_SortByPType |
-                           aiProcess_JoinIdenticalVertices | aiProcess_ValidateDataStructure);
+    const aiScene* const scene =
+        importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_SortByPType |
+                                             aiProcess_ValidateDataStructure);
     if (scene == nullptr || scene->mRootNode == nullptr) {
       return fail(path.string() + ": cannot be read: " + importer.GetErrorString());
     }
+    const std::string ending = ending_of(path);
     MaterialReader materials(*scene, path, textures, &file.notices);
+    materials.set_dialect(ending == ".dae"                        ? MaterialDialect::collada
+                          : ending == ".gltf" || ending == ".glb" ? MaterialDialect::gltf
+                                                                  : MaterialDialect::plain);
     Gatherer(*scene, path, materials, &file)
         .walk(*scene->mRootNode, frame->of(*scene->mRootNode), "");
   } catch (const std::exception& error) {

@@ -35,6 +35,10 @@ struct MeshPiece {
 /// stays outside.
 [[nodiscard]] MeshPiece placed(const MeshPiece& piece, const Eigen::Affine3d& T_world_piece);
 
+/// The same surface with vertices that agree in every bit made one: most files give each triangle
+/// its own.
+[[nodiscard]] MeshPiece without_copies(const MeshPiece& piece);
+
 /// The triangles of `piece` for which `keep[i]` is `value`, with the vertices they need.
 [[nodiscard]] MeshPiece selected(const MeshPiece& piece, const std::vector<int>& keep, int value);
 

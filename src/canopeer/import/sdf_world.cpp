@@ -100,6 +100,7 @@ class WorldReader {
                           const Pose& T_world_model, const Vec3& scale);
   Expected<Pose> resolve(const sdf::SemanticPose& pose, const std::string& what) const;
   void add_ground();
+  Expected<void> check_include(const sdf::Model& model) const;
 
   fs::path path_;
   const ModelPaths& paths_;
@@ -173,10 +174,30 @@ Expected<void> WorldReader::add_link(const sdf::Link& link, const std::string& m
   return {};
 }
 
+/// The library looks for relative includes in the working directory before it asks us. What it
+/// finds there must not come in place of what lies beside the file.
+Expected<void> WorldReader::check_include(const sdf::Model& model) const {
+  const sdf::ElementPtr include = model.Element() ? model.Element()->GetIncludeElement() : nullptr;
+  if (!include || !include->HasElement("uri")) return {};
+  const auto uri = include->GetElement("uri")->Get<std::string>();
+  if (uri.find("://") != std::string::npos || fs::path(uri).is_absolute()) return {};
+  const fs::path from = include->FilePath().empty() ? path_ : fs::path(include->FilePath());
+  fs::path beside = from.parent_path() / uri;
+  fs::path read = fs::path(model.Element()->FilePath()).parent_path();
+  std::error_code code;
+  if (!fs::exists(beside, code)) return {};
+  if (!fs::is_directory(beside, code)) beside = beside.parent_path();
+  if (read.empty()) read = ".";
+  if (beside.empty() || fs::equivalent(beside, read, code) || code) return {};
+  return fail(from.string() + ": <include><uri>" + uri + ": the working directory has a " +
+              read.string() + " that hides " + beside.string() + "; run from another directory");
+}
+
 Expected<void> WorldReader::add_model(const sdf::Model& model, const std::string& scope,
                                       const Pose& T_world_parent, const Vec3& scale) {
   const std::string name = scope + model.Name();
   if (state_.deleted.count(name) != 0) return {};
+  if (auto ok = check_include(model); !ok) return ok;
   auto T_parent_model = resolve(model.SemanticPose(), "model '" + name + "'");
   if (!T_parent_model) return tl::unexpected(T_parent_model.error());
   Pose T_world_model = T_world_parent * *T_parent_model;
