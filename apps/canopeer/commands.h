@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "canopeer/import/world_import.h"
+
 namespace canopeer::app {
 
 /// What several commands take to name a mission and change its settings.
@@ -49,11 +51,21 @@ struct MapFuseArguments {
   bool quiet = false;
 };
 
+struct ImportArguments {
+  std::string world;
+  std::vector<std::string> model_paths;
+  NamePatternOptions patterns;
+  double min_fruit_cm3 = FruitComponentOptions().min_hull_cm3;
+  bool ignore_up_axis = false;
+  std::string out;
+};
+
 // The commands. Each ends by returning, or by throwing Stop.
 void run(const RunArguments& arguments);
 void report(const std::string& directory);
 void scene_render(const SceneArguments& arguments);
 void scene_inspect(const SceneArguments& arguments);
+void scene_import(const ImportArguments& arguments);
 void map_info(const std::string& file);
 void map_convert(const std::string& in, const std::string& out);
 void map_fuse(const MapFuseArguments& arguments);

@@ -39,8 +39,38 @@ void add_report(CLI::App& app, std::string& directory) {
   command->callback([&directory] { report(directory); });
 }
 
-void add_scene(CLI::App& app, SceneArguments& arguments) {
-  CLI::App* scene = app.add_subcommand("scene", "Look at the world of a mission");
+void add_import(CLI::App& scene, ImportArguments& arguments) {
+  CLI::App* import = scene.add_subcommand(
+      "import", "Read a world or mesh that is there already; write scene, ground truth, picture");
+  import->add_option("world", arguments.world, "SDF world, mesh, or scene file of scanned plants")
+      ->required();
+  import
+      ->add_option("--model-path", arguments.model_paths,
+                   "Folder of models, for model:// (repeatable)")
+      ->expected(1)
+      ->take_all();
+  import->add_option("--fruit", arguments.patterns.fruit,
+                     "Pattern on the names of what is fruit: material, texture, mesh or model");
+  import->add_option("--counted", arguments.patterns.counted,
+                     "Pattern on the names of fruits that count (default: all)");
+  import->add_option("--leaf", arguments.patterns.leaf, "Pattern on the names of leaves");
+  import->add_option("--stem", arguments.patterns.stem,
+                     "Pattern on the names of stems (default: what else is in a plant)");
+  import->add_option("--plant", arguments.patterns.plant,
+                     "Pattern on models that are plants though nothing in them matches");
+  import->add_option("--skip", arguments.patterns.skip,
+                     "Pattern on the names of what to leave out");
+  import->add_option("--min-fruit-cm3", arguments.min_fruit_cm3,
+                     "Smaller pieces of fruit surface are no fruits");
+  import->add_flag("--ignore-up-axis", arguments.ignore_up_axis,
+                   "Take COLLADA coordinates as they are, as Gazebo does");
+  import->add_option("--out", arguments.out, "Directory for the results")->required();
+  import->callback([&arguments] { scene_import(arguments);
+});
+}  // namespace
+
+void add_scene(CLI::App& app, SceneArguments& arguments, ImportArguments& import_arguments) {
+  CLI::App* scene = app.add_subcommand("scene", "Look at the world of a mission, or bring one");
   scene->require_subcommand(1);
   CLI::App* render = scene->add_subcommand(
       "render", "Write pictures of the row and of what the camera sees, and the ground truth");
@@ -50,6 +80,7 @@ void add_scene(CLI::App& app, SceneArguments& arguments) {
   CLI::App* inspect = scene->add_subcommand("inspect", "Print what is in the world");
   add_mission(*inspect, arguments.mission);
   inspect->callback([&arguments] { scene_inspect(arguments); });
+  add_import(*scene, import_arguments);
 }
 
 struct MapArguments {
@@ -121,9 +152,10 @@ int parse_and_run(int argc, char** argv) {
   RunArguments run_arguments;
   std::string report_directory;
   SceneArguments scene_arguments;
+  ImportArguments import_arguments;
   add_run(app, run_arguments);
   add_report(app, report_directory);
-  add_scene(app, scene_arguments);
+  add_scene(app, scene_arguments, import_arguments);
   MapArguments map_arguments;
   add_map(app, map_arguments);
   app.add_subcommand("version", "Print the version")->callback([] {
@@ -137,7 +169,7 @@ int parse_and_run(int argc, char** argv) {
   return kDone;
 }
 
-}  // namespace
+}  // namespace canopeer::app
 }  // namespace canopeer::app
 
 int main(int argc, char** argv) {

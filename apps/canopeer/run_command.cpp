@@ -17,6 +17,7 @@
 #include "progress_bar.h"
 #include "run_results.h"
 #include "stop_signal.h"
+#include "world_builder.h"
 
 namespace canopeer::app {
 namespace {
@@ -103,7 +104,8 @@ void run(const RunArguments& arguments) {
           : std::filesystem::path(arguments.out);
 
   std::atomic<bool>& stop = catch_stop_signals();
-  const Scene scene = make_world(file.world, file.mission.seed);
+  const ImportedScene world = build_world_or_stop(file.world, file.mission.seed, arguments.quiet);
+  const Scene& scene = world.scene;
   const SegmentPlan& first = file.mission.segments.front();
   Simulation simulation(robot, scene, robot.home("side_" + std::to_string(first.side)),
                         first.trolley, file.simulation);

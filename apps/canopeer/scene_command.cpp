@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <filesystem>
+#include <set>
 
 #include "canopeer/base/atomic_file.h"
 #include "canopeer/config/robot_file.h"
@@ -10,6 +11,7 @@
 #include "commands.h"
 #include "exit_status.h"
 #include "mission_arguments.h"
+#include "world_builder.h"
 
 namespace canopeer::app {
 namespace {
@@ -51,7 +53,8 @@ void write_view(const fs::path& out, const std::string& name, const RenderedView
 void scene_render(const SceneArguments& arguments) {
   const MissionFile file = load(arguments.mission);
   const RobotModel robot = value_or_stop(load_robot(file.robot), kBadInput);
-  const Scene scene = make_world(file.world, file.mission.seed);
+  const ImportedScene world = build_world_or_stop(file.world, file.mission.seed, false);
+  const Scene& scene = world.scene;
   const Renderer renderer(scene);
   const fs::path out = arguments.out.empty() ? fs::path("out") / "scene" : fs::path(arguments.out);
   std::error_code code;
@@ -72,13 +75,18 @@ void scene_render(const SceneArguments& arguments) {
 
 void scene_inspect(const SceneArguments& arguments) {
   const MissionFile file = load(arguments.mission);
-  const Scene scene = make_world(file.world, file.mission.seed);
+  const ImportedScene world = build_world_or_stop(file.world, file.mission.seed, false);
+  const Scene& scene = world.scene;
+  std::set<int> plants;
+  for (const ScenePart& part : scene.parts) {
+    if (part.plant >= 0) plants.insert(part.plant);
+  }
   int by_class[3] = {0, 0, 0};
   for (const auto& fruit : scene.fruits) ++by_class[static_cast<int>(fruit.ripeness)];
   std::printf(
       "scene             %s, seed %llu\nplants            %zu\ntriangles         %zu\n"
       "fruits_counted    %d\nfruits_total      %zu (%d ripe, %d turning, %d green)\n",
-      scene.name.c_str(), static_cast<unsigned long long>(scene.seed), file.world.plants.size(),
+      scene.name.c_str(), static_cast<unsigned long long>(scene.seed), plants.size(),
       scene.triangle_count(), scene.counted_fruits(), scene.fruits.size(),
       by_class[static_cast<int>(Ripeness::ripe)], by_class[static_cast<int>(Ripeness::turning)],
       by_class[static_cast<int>(Ripeness::green)]);

@@ -205,5 +205,66 @@ TEST(Renderer, DepthNoiseIsOffUnlessAskedForAndRepeats) {
   EXPECT_NEAR(std::sqrt(squares / 19200.0), 0.002, 0.0001);
 }
 
+/// A wall at x = 1 whose texture has a hole in the half of greater y, and a red wall behind it.
+Scene wall_with_a_hole() {
+  ScenePart front;
+  front.mesh.vertices = {{1, -1, -1}, {1, 1, -1}, {1, 1, 1}, {1, -1, 1}};
+  front.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  front.uv = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  front.kind = PartClass::leaf;
+  Texture texture;
+  texture.color = ColorImage(2, 1, {20, 200, 30});
+  texture.opacity = Image<std::uint8_t>(2, 1, 255);
+  texture.opacity.at(1, 0) = 0;
+  front.texture = std::make_shared<const Texture>(texture);
+  Scene scene = one_part(front);
+  scene.parts.push_back(
+      part_of(make_box(Box(Vec3(2, -3, -3), Vec3(2.5, 3, 3))), PartClass::fruit, {200, 20, 20}));
+  scene.parts.back().fruit = 0;
+  return scene;
+}
+
+TEST(Renderer, LooksThroughTheHolesOfATexture) {
+  const auto camera = CameraIntrinsics::from_fov(64, 48, kFov);
+  const Pose pose = look_at(Vec3(0, 0, 0), Vec3(1, 0, 0));  // greater y to the left
+  const RenderedView view = Renderer(wall_with_a_hole()).render(camera, pose);
+  for (const auto& [u, leaf] : {std::pair{24, false}, std::pair{40, true}}) {
+    const Rgb c = view.color.at(u, 24);
+    EXPECT_NEAR(view.depth.at(u, 24), leaf ? 1.0 : 2.0, 1e-4);
+    EXPECT_EQ(c.g > c.r, leaf);
+    EXPECT_EQ(view.labels.kind.at(u, 24),
+              static_cast<std::uint8_t>(leaf ? PartClass::leaf : PartClass::fruit));
+    EXPECT_EQ(view.labels.fruit.at(u, 24), leaf ? -1 : 0);
+  }
+}
+
+TEST(Renderer, LightFallsThroughTheHolesOfATexture) {
+  RenderOptions options;
+  options.shadows = true;
+  options.color_noise = 0.0;
+  options.light_direction = Vec3(-1, 0, 0);
+  Scene scene = wall_with_a_hole();
+  const auto camera = CameraIntrinsics::from_fov(64, 48, kFov);
+  // From between the walls, looking at the rear one.
+  const Pose pose = look_at(Vec3(1.2, 0, 0), Vec3(2, 0, 0));
+  const RenderedView view = Renderer(scene, options).render(camera, pose);
+  EXPECT_GT(view.color.at(20, 24).r, view.color.at(44, 24).r + 20);
+}
+
+TEST(Renderer, ShowsVertexColoursAndNoGlass) {
+  Scene scene = wall_with_a_hole();
+  ScenePart glass = part_of(make_box(Box(Vec3(0.5, -3, -3), Vec3(0.6, 3, 3))), PartClass::structure,
+                            {255, 255, 255});
+  glass.see_through = true;
+  scene.parts.push_back(glass);
+  scene.parts[0].texture = nullptr;
+  scene.parts[0].vertex_colors.assign(4, {10, 20, 250});
+  const auto camera = CameraIntrinsics::from_fov(64, 48, kFov);
+  const RenderedView view = Renderer(scene).render(camera, look_at(Vec3(0, 0, 0), Vec3(1, 0, 0)));
+  EXPECT_NEAR(view.depth.at(32, 24), 1.0, 1e-4);
+  const Rgb c = view.color.at(32, 24);
+  EXPECT_GT(c.b, c.r + 50);
+}
+
 }  // namespace
 }  // namespace canopeer

@@ -25,5 +25,16 @@ TEST(GroundTruthCsv, HasOneRowPerFruit) {
             "1,green,0,-0.75000,0.10000,0.40000,0.0740,0.0680,154.00,150.00,3\n");
 }
 
+TEST(GroundTruthCsv, OfAnImportedSceneNamesModelsAndHulls) {
+  Scene scene;
+  scene.imported = true;
+  FruitTruth fruit;
+  fruit.model = "row::plant, 3";
+  scene.fruits.push_back(fruit);
+  EXPECT_EQ(ground_truth_csv(scene),
+            "id,class,counted,x_m,y_m,z_m,length_m,diameter_m,hull_volume_cm3,surface_cm2,model\n"
+            "0,ripe,1,0.00000,0.00000,0.00000,0.0000,0.0000,0.00,0.00,row::plant_ 3\n");
+}
+
 }  // namespace
 }  // namespace canopeer

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "canopeer/config/cost_table_file.h"
+#include "canopeer/config/imported_world.h"
 #include "canopeer/config/yaml_reader.h"
 
 namespace canopeer {
@@ -12,7 +13,7 @@ namespace fs = std::filesystem;
 
 constexpr double kRad = std::numbers::pi / 180.0;
 
-void read_world(YamlMap world, WorldOptions& options) {
+void read_generated_world(YamlMap& world, WorldOptions& options) {
   const std::string preset = world.choice("preset", "scenario_1", {"scenario_1", "empty"});
   if (preset == "scenario_1") options = scenario_1_world();
   options.name = world.text("name", options.name);
@@ -31,6 +32,15 @@ void read_world(YamlMap world, WorldOptions& options) {
   options.wall_x_m = world.number("wall_x_m", options.wall_x_m, {1.5, 100});
   options.pipes = world.boolean("pipes", options.pipes);
   options.distractors = world.integer("distractors", options.distractors, 0, 1000);
+}
+
+/// A world that is there already, or one to be generated.
+Expected<void> read_world(YamlMap world, WorldSource& source) {
+  if (!world.has("import")) {
+    read_generated_world(world, source.generated);
+    return {};
+  }
+  return read_imported_world(world, source);
 }
 
 /// Order per stop: side 1, side 2, the next lift height, side 1, side 2, the next stop.
@@ -183,7 +193,9 @@ Expected<MissionFile> load_mission(const fs::path& path, const Overrides& overri
   mission.seed = static_cast<std::uint64_t>(file->number("seed", 1, {0, 9007199254740992.0}));
   result.compute_table = file->text("compute_table", result.compute_table);
   read_segments(*file, mission);
-  read_world(file->map("world"), result.world);
+  if (auto ok = read_world(file->map("world"), result.world); !ok) {
+    return tl::unexpected(ok.error());
+  }
   read_camera(file->map("camera"), result.simulation);
   read_map(file->map("map"), mission);
   read_view_sampling(file->map("view_sampling"), vmp.builder);

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "canopeer/base/expected.h"
+#include "canopeer/import/world_source.h"
 #include "canopeer/mission/mission_options.h"
-#include "canopeer/scene/row_world.h"
 #include "canopeer/sim/simulation.h"
 
 namespace canopeer {
@@ -16,7 +16,7 @@ namespace canopeer {
 struct MissionFile {
   MissionOptions mission;
   std::filesystem::path robot;  ///< robot.yaml
-  WorldOptions world;
+  WorldSource world;
   SimulationOptions simulation;
   std::string compute_table = "default";  ///< name or file of the cost table
   std::string settings_json;              ///< every key with the value in force, defaults too

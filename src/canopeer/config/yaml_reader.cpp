@@ -287,6 +287,13 @@ std::vector<std::string> YamlMap::texts(std::string_view key, std::vector<std::s
   return fallback;
 }
 
+std::vector<std::string> YamlMap::text_or_texts(std::string_view key,
+                                                std::vector<std::string> fallback) {
+  const YamlNode* const node = node_->find(key);
+  if (node == nullptr || node->kind != Kind::kScalar) return texts(key, std::move(fallback));
+  return {text(key, {})};
+}
+
 YamlMap YamlMap::map(std::string_view key) {
   YamlNode* const node = take(key);
   if (node != nullptr && node->kind == Kind::kMap) return {document_, node, dotted(key)};

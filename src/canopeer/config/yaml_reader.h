@@ -64,6 +64,8 @@ class YamlMap {
   std::vector<double> required_numbers(std::string_view key, std::size_t count,
                                        NumberRange range = {});
   std::vector<std::string> texts(std::string_view key, std::vector<std::string> fallback);
+  /// The same, where a lone text stands for a sequence of one.
+  std::vector<std::string> text_or_texts(std::string_view key, std::vector<std::string> fallback);
 
   /// The mapping under `key`; an empty one when absent.
   YamlMap map(std::string_view key);

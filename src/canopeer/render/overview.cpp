@@ -46,7 +46,7 @@ Pose choose_camera(const Box& plants, const CameraIntrinsics& camera) {
   return look_at(aim + distance * away, aim);
 }
 
-/// The scene without the walls that stand in the camera's way.
+/// The scene without the walls and the roof that are in the camera's way.
 Scene open_scene(const Scene& scene, const Box& plants, const Vec3& eye) {
   Scene open = scene;
   std::erase_if(open.parts, [&](const ScenePart& part) {
@@ -54,7 +54,8 @@ Scene open_scene(const Scene& scene, const Box& plants, const Vec3& eye) {
     const Box box = part.mesh.bounds();
     const bool between_x = eye.x() > plants.max().x() && box.min().x() > plants.max().x();
     const bool upright = box.max().z() > 1.0;
-    return upright && between_x;
+    const bool roof = box.min().z() > plants.max().z();
+    return roof || (upright && between_x);
   });
   return open;
 }

@@ -41,12 +41,44 @@ RTCRay embree_ray(const RayCaster::Ray& ray, float from) {
   return r;
 }
 
+/// Embree asks for each hit on a triangle with holes whether it counts.
+void let_through_holes(const RTCFilterFunctionNArguments* args) {
+  const auto& soup = *static_cast<const SurfaceSoup*>(args->geometryUserPtr);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] == 0) continue;
+    const std::uint32_t triangle = soup.first_cut + RTCHitN_primID(args->hit, args->N, i);
+    const Barycentric at{RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i)};
+    if (!solid(soup, triangle, at)) args->valid[i] = 0;
+  }
+}
+
 }  // namespace
 
 struct RayCaster::Impl {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
+  std::array<std::uint32_t, 2> first_triangle{};  // of each geometry
+
+  void attach(const SurfaceSoup& soup, std::uint32_t begin, std::uint32_t end);
 };
+
+/// Triangles begin … end as a geometry of their own.
+void RayCaster::Impl::attach(const SurfaceSoup& soup, std::uint32_t begin, std::uint32_t end) {
+  if (begin == end) return;
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  const std::vector<std::array<std::uint32_t, 3>> triangles(soup.triangles.begin() + begin,
+                                                            soup.triangles.begin() + end);
+  copy_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, soup.vertices);
+  copy_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, triangles);
+  if (begin >= soup.first_cut) {
+    rtcSetGeometryUserData(geometry, const_cast<SurfaceSoup*>(&soup));
+    rtcSetGeometryIntersectFilterFunction(geometry, let_through_holes);
+    rtcSetGeometryOccludedFilterFunction(geometry, let_through_holes);
+  }
+  rtcCommitGeometry(geometry);
+  first_triangle[rtcAttachGeometry(scene, geometry)] = begin;
+  rtcReleaseGeometry(geometry);
+}
 
 RayCaster::RayCaster(const SurfaceSoup& soup) : impl_(std::make_unique<Impl>()) {
   impl_->device = rtcNewDevice(kDeviceConfig);
@@ -54,14 +86,8 @@ RayCaster::RayCaster(const SurfaceSoup& soup) : impl_(std::make_unique<Impl>()) 
   impl_->scene = rtcNewScene(impl_->device);
   // No gaps between neighbouring triangles.
   rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
-  if (!soup.triangles.empty()) {
-    RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    copy_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, soup.vertices);
-    copy_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, soup.triangles);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(impl_->scene, geometry);
-    rtcReleaseGeometry(geometry);
-  }
+  impl_->attach(soup, 0, soup.first_cut);
+  impl_->attach(soup, soup.first_cut, static_cast<std::uint32_t>(soup.triangles.size()));
   // One thread builds: the tree, and with it which of two triangles is hit on their common edge,
   // is the same every time.
   oneapi::tbb::task_arena(1).execute([this] { rtcJoinCommitScene(impl_->scene); });
@@ -88,9 +114,10 @@ void RayCaster::closest(std::span<const Ray> rays, std::span<Hit> hits) const {
                  sizeof(RTCRayHit));
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const RTCHit& hit = packet[i].hit;
-    hits[i] = hit.geomID != RTC_INVALID_GEOMETRY_ID
-                  ? Hit{hit.primID, packet[i].ray.tfar, hit.u, hit.v}
-                  : Hit{};
+    hits[i] =
+        hit.geomID != RTC_INVALID_GEOMETRY_ID
+            ? Hit{impl_->first_triangle[hit.geomID] + hit.primID, packet[i].ray.tfar, hit.u, hit.v}
+            : Hit{};
   }
 }
 

@@ -9,7 +9,8 @@
 
 namespace canopeer {
 
-/// Nearest intersections of rays with triangles; Embree behind it.
+/// Nearest intersections of rays with triangles, through the holes that textures cut; Embree behind
+/// it.
 class RayCaster {
  public:
   struct Ray {
@@ -26,6 +27,7 @@ class RayCaster {
   /// Rays a call takes at most.
   static constexpr std::size_t kPacket = 64;
 
+  /// `soup` outlives the caster when it has triangles with holes.
   explicit RayCaster(const SurfaceSoup& soup);
   ~RayCaster();
   RayCaster(const RayCaster&) = delete;

@@ -80,10 +80,11 @@ Eigen::Vector3f shade(const SurfaceSoup& soup, const RayCaster::Hit& hit, const 
   const float facing = n.dot(light.direction);
   const float direct = shadowed ? 0.0F : 1.0F - light.ambient;
   const float sky = light.ambient * (0.85F + 0.35F * n.z());  // more comes from above
-  Eigen::Vector3f color = part.color * (even * (sky + kDirect * direct * std::max(facing, 0.0F)));
+  const Eigen::Vector3f base = base_color(soup, hit.triangle, {hit.u, hit.v});
+  Eigen::Vector3f color = base * (even * (sky + kDirect * direct * std::max(facing, 0.0F)));
   if (finish.translucency > 0.0F && facing < 0.0F) {
     const float through = -facing * finish.translucency * kDirect * direct * even;
-    color += through * part.color.cwiseProduct(Eigen::Vector3f(1.1F, 1.25F, 0.7F));
+    color += through * base.cwiseProduct(Eigen::Vector3f(1.1F, 1.25F, 0.7F));
   }
   if (finish.gloss > 0.0F && facing > 0.0F && !shadowed) {
     const Eigen::Vector3f half = (light.direction - ray.direction.normalized()).normalized();

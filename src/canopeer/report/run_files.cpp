@@ -33,8 +33,12 @@ Expected<FruitTruth> truth_of(const CsvTable& table, std::size_t row) {
   if (!ripeness) return fail(ripeness.error().message);
   fruit.ripeness = *ripeness;
   int counted = 0;
-  for (const auto& [column, value] : {std::pair{"id", &fruit.id}, std::pair{"counted", &counted},
-                                      std::pair{"plant", &fruit.plant}}) {
+  // Imported worlds name models, not plants, and have volumes of hulls.
+  const bool imported = table.has("hull_volume_cm3");
+  const char* const volume = imported ? "hull_volume_cm3" : "volume_cm3";
+  std::vector<std::pair<const char*, int*>> integers = {{"id", &fruit.id}, {"counted", &counted}};
+  if (!imported) integers.emplace_back("plant", &fruit.plant);
+  for (const auto& [column, value] : integers) {
     const Expected<int> field = table.integer(row, column);
     if (!field) return fail(field.error().message);
     *value = *field;
@@ -43,7 +47,7 @@ Expected<FruitTruth> truth_of(const CsvTable& table, std::size_t row) {
   for (const auto& [column, value] :
        {std::pair{"x_m", &fruit.centre.x()}, std::pair{"y_m", &fruit.centre.y()},
         std::pair{"z_m", &fruit.centre.z()}, std::pair{"length_m", &fruit.length_m},
-        std::pair{"diameter_m", &fruit.diameter_m}, std::pair{"volume_cm3", &fruit.volume_cm3},
+        std::pair{"diameter_m", &fruit.diameter_m}, std::pair{volume, &fruit.volume_cm3},
         std::pair{"surface_cm2", &fruit.surface_cm2}}) {
     const Expected<double> field = table.number(row, column);
     if (!field) return fail(field.error().message);

@@ -16,9 +16,10 @@ struct FruitTruth {
   Vec3 centre = Vec3::Zero();  ///< centroid of the closed body, world
   double length_m = 0.0;       ///< along the fruit's own axis
   double diameter_m = 0.0;     ///< largest, across the axis
-  double volume_cm3 = 0.0;     ///< of the closed body
+  double volume_cm3 = 0.0;     ///< of the closed body; of its convex hull in imported scenes
   double surface_cm2 = 0.0;
-  int plant = 0;  ///< index of the plant in the scene
+  int plant = 0;      ///< index of the plant in the scene
+  std::string model;  ///< name of the model it belongs to, imported scenes only
 };
 
 }  // namespace canopeer

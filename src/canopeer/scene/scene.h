@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "canopeer/geometry/triangle_mesh.h"
 #include "canopeer/scene/fruit_truth.h"
+#include "canopeer/scene/texture.h"
 #include "canopeer/sensing/image.h"
 
 namespace canopeer {
@@ -21,9 +23,13 @@ const char* part_class_name(PartClass kind);
 struct ScenePart {
   TriangleMesh mesh;  ///< world frame, with normals
   PartClass kind = PartClass::structure;
-  int plant = -1;  ///< index of the plant in the scene, −1: none
-  int fruit = -1;  ///< FruitTruth::id for the body of a fruit, else −1
-  Rgb color;       ///< base colour, before light
+  int plant = -1;                          ///< index of the plant in the scene, −1: none
+  int fruit = -1;                          ///< FruitTruth::id for the body of a fruit, else −1
+  Rgb color;                               ///< base colour, before light
+  std::vector<Rgb> vertex_colors;          ///< one per vertex, in place of `color`; mostly empty
+  std::shared_ptr<const Texture> texture;  ///< in place of both; null: none
+  std::vector<Eigen::Vector2f> uv;         ///< one per vertex when there is a texture
+  bool see_through = false;  ///< glass and the like: no camera sees it, but it is in the way
 
   /// Floor, walls and the like: what a robot knows in advance and must never touch.
   [[nodiscard]] bool static_structure() const { return kind == PartClass::structure; }
@@ -33,6 +39,7 @@ struct ScenePart {
 struct Scene {
   std::string name;
   std::uint64_t seed = 0;
+  bool imported = false;  ///< made of files people had: fruit volumes are those of convex hulls
   std::vector<ScenePart> parts;
   std::vector<FruitTruth> fruits;  ///< fruits[i].id == i
 

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace canopeer {
+
+/// Turns what a world refers to into files.
+class ModelPaths {
+ public:
+  /// `roots`: folders with one folder a model, as Gazebo's model path; in order of preference.
+  explicit ModelPaths(std::vector<std::filesystem::path> roots);
+
+  /// `model://name/…` and `package://name/…` under the roots, `file://…` and absolute paths as they
+  /// are, anything else relative to `folder` (of the file that refers to it). Nothing when no such
+  /// file or folder exists.
+  [[nodiscard]] std::optional<std::filesystem::path> find(
+      const std::string& uri, const std::filesystem::path& folder) const;
+
+  /// "searched: …", for messages.
+  [[nodiscard]] std::string searched(const std::string& uri,
+                                     const std::filesystem::path& folder) const;
+
+ private:
+  [[nodiscard]] std::vector<std::filesystem::path> candidates(
+      const std::string& uri, const std::filesystem::path& folder) const;
+  std::vector<std::filesystem::path> roots_;
+};
+
+}  // namespace canopeer

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "canopeer/geometry/pose.h"
+
+namespace sdf {
+inline namespace v12 {
+class World;
+}
+}  // namespace sdf
+
+namespace canopeer {
+
+/// What an SDF <state> block says of where things are: Gazebo saves it with a world and follows it
+/// rather than the models' own poses.
+struct SdfState {
+  struct Entry {
+    std::optional<Pose> T_world;  ///< poses in <state> are in the world frame, links' too
+    Vec3 scale = Vec3::Ones();
+  };
+  std::map<std::string, Entry> models;  ///< by full name, "row::plant_3"
+  std::map<std::string, Entry> links;   ///< by full name, "row::plant_3::link"
+  std::set<std::string> deleted;        ///< models that were taken out
+  int insertions = 0;                   ///< models that were put in; not read
+
+  [[nodiscard]] const Entry* model(const std::string& name) const;
+  [[nodiscard]] const Entry* link(const std::string& name) const;
+};
+
+/// Without a <state>: empty.
+[[nodiscard]] SdfState read_sdf_state(const sdf::World& world);
+
+}  // namespace canopeer

@@ -1,0 +1,101 @@
+#include "canopeer/import/scene_glb.h"
+
+#include <gtest/gtest.h>
+
+#include "canopeer/import/world_import.h"
+#include "canopeer/scene/row_world.h"
+#include "mesh_writers.h"
+#include "world_files.h"
+
+namespace canopeer {
+namespace {
+
+ScenePart part_of(const TriangleMesh& mesh, PartClass kind, int plant, int fruit, Rgb color) {
+  ScenePart part;
+  part.mesh = mesh;
+  compute_normals(part.mesh);
+  part.kind = kind;
+  part.plant = plant;
+  part.fruit = fruit;
+  part.color = color;
+  return part;
+}
+
+TEST(SceneGlb, ReadsBackAsTheSameScene) {
+  Scene scene;
+  scene.imported = true;
+  const Vec3 centre(0.3, -0.4, 0.5);
+  scene.parts.push_back(part_of(test::ball(centre, 0.04), PartClass::fruit, 0, 0, {204, 41, 9}));
+  ScenePart leaf =
+      part_of(test::sheet(Vec3(0, 0, 0.2), Vec3(0.5, 1, 0.2)), PartClass::leaf, 0, -1, {});
+  Texture texture;
+  texture.name = "leaf.png";
+  texture.color = ColorImage(2, 2, {10, 100, 20});
+  texture.color.at(0, 1) = {99, 98, 97};  // lower left
+  texture.opacity = Image<std::uint8_t>(2, 2, 255);
+  texture.opacity.at(1, 0) = 0;  // upper right
+  leaf.texture = std::make_shared<const Texture>(texture);
+  for (const auto& v : leaf.mesh.vertices) leaf.uv.emplace_back(2.0F * v.x(), v.y());
+  scene.parts.push_back(leaf);
+  scene.parts.push_back(part_of(make_box(Box(Vec3(-1, -1, -0.1), Vec3(1, 1, 0))),
+                                PartClass::structure, -1, -1, {124, 112, 100}));
+  FruitTruth fruit;
+  fruit.model = "plant_7";
+  scene.fruits.push_back(fruit);
+
+  const test::WorldFiles files;
+  WorldImportOptions options;
+  options.file = files.path() / "scene.glb";
+  options.patterns = {.fruit = "^fruit", .counted = "_counted", .leaf = "^leaf"};
+  ASSERT_TRUE(write_scene_glb(options.file, scene).has_value());
+  const auto back = import_world(options);
+  ASSERT_TRUE(back.has_value()) << back.error().message;
+  ASSERT_EQ(back->scene.fruits.size(), 1U);
+  EXPECT_EQ(back->scene.fruits[0].model, "plant_7");
+  EXPECT_TRUE(back->scene.fruits[0].counted);
+  EXPECT_LT((back->scene.fruits[0].centre - centre).norm(), 1e-6);
+  EXPECT_LT((back->scene.bounds().min() - scene.bounds().min()).norm(), 1e-6);
+  EXPECT_LT((back->scene.bounds().max() - scene.bounds().max()).norm(), 1e-6);
+  for (const ScenePart& part : back->scene.parts) {
+    if (part.kind == PartClass::fruit) EXPECT_EQ(part.color, (Rgb{204, 41, 9}));
+    if (part.kind == PartClass::structure) EXPECT_EQ(part.plant, -1);
+    if (part.kind != PartClass::leaf) continue;
+    ASSERT_NE(part.texture, nullptr);
+    EXPECT_TRUE(part.texture->cuts());
+    // The corner at x = y = 0 has the lower left colour, the one opposite is a hole.
+    for (std::size_t i = 0; i < part.uv.size(); ++i) {
+      const auto& v = part.mesh.vertices[i];
+      const Eigen::Vector2f inward = part.uv[i] + (Eigen::Vector2f(0.5F, 0.5F) - part.uv[i]) * 0.1F;
+      if (v.x() < 0.1F && v.y() < 0.1F) {
+        EXPECT_EQ(part.texture->color_at(inward), Eigen::Vector3f(99, 98, 97));
+      }
+      EXPECT_EQ(part.texture->solid_at(inward), v.x() < 0.1F || v.y() < 0.1F);
+    }
+  }
+}
+
+TEST(SceneGlb, AGeneratedRowKeepsItsFruits) {
+  const Scene scene = make_world(scenario_1_world(), 1);
+  const test::WorldFiles files;
+  WorldImportOptions options;
+  options.file = files.path() / "row.glb";
+  options.patterns = {.fruit = "^fruit", .counted = "_counted", .leaf = "^leaf"};
+  ASSERT_TRUE(write_scene_glb(options.file, scene).has_value());
+  const auto back = import_world(options);
+  ASSERT_TRUE(back.has_value()) << back.error().message;
+  EXPECT_EQ(back->scene.fruits.size(), scene.fruits.size());
+  EXPECT_EQ(back->scene.counted_fruits(), scene.counted_fruits());
+  // Every fruit has one within a millimetre, with a hull a little larger than its body.
+  for (const FruitTruth& fruit : scene.fruits) {
+    const auto near =
+        std::find_if(back->scene.fruits.begin(), back->scene.fruits.end(),
+                     [&](const FruitTruth& f) { return (f.centre - fruit.centre).norm() < 3e-3; });
+    ASSERT_NE(near, back->scene.fruits.end()) << fruit.id;
+    EXPECT_EQ(near->counted, fruit.counted);
+    EXPECT_GT(near->volume_cm3, fruit.volume_cm3);
+    EXPECT_LT(near->volume_cm3, 1.25 * fruit.volume_cm3);
+  }
+}
+
+}  // namespace
+}  // namespace canopeer
