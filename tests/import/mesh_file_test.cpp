@@ -198,7 +198,9 @@ TEST(MeshFile, FilesThatAreCutOffAreErrorsOrShorterNeverWorse) {
       const auto path = files.add(name, content.substr(0, content.size() * i / 12));
       TextureStore textures;
       const auto file = read_mesh_file(path, {}, textures);
-      if (!file) EXPECT_NE(file.error().message.find(name), std::string::npos);
+      if (!file) {
+        EXPECT_NE(file.error().message.find(name), std::string::npos);
+      }
       if (!file) continue;
       for (const MeshPiece& piece : file->pieces) {
         EXPECT_TRUE(piece.mesh.bounds().min().allFinite()) << name;

@@ -57,8 +57,12 @@ TEST(SceneGlb, ReadsBackAsTheSameScene) {
   EXPECT_LT((back->scene.bounds().min() - scene.bounds().min()).norm(), 1e-6);
   EXPECT_LT((back->scene.bounds().max() - scene.bounds().max()).norm(), 1e-6);
   for (const ScenePart& part : back->scene.parts) {
-    if (part.kind == PartClass::fruit) EXPECT_EQ(part.color, (Rgb{204, 41, 9}));
-    if (part.kind == PartClass::structure) EXPECT_EQ(part.plant, -1);
+    if (part.kind == PartClass::fruit) {
+      EXPECT_EQ(part.color, (Rgb{204, 41, 9}));
+    }
+    if (part.kind == PartClass::structure) {
+      EXPECT_EQ(part.plant, -1);
+    }
     if (part.kind != PartClass::leaf) continue;
     ASSERT_NE(part.texture, nullptr);
     EXPECT_TRUE(part.texture->cuts());

