@@ -17,7 +17,6 @@ inline void expect_same_map(const VoxelMap& a, const VoxelMap& b) {
     EXPECT_TRUE(a.block(key)->observed == b.block(key)->observed);
     EXPECT_TRUE(a.block(key)->occupied == b.block(key)->occupied);
     EXPECT_TRUE(a.block(key)->roi == b.block(key)->roi);
-    EXPECT_EQ(a.block_summary(key), b.block_summary(key));
     for_each_voxel(key, VoxelMask::all(), [&](const VoxelIndex& v) {
       ASSERT_EQ(a.occupancy_log_odds(v), b.occupancy_log_odds(v));
       ASSERT_EQ(a.roi_log_odds(v), b.roi_log_odds(v));

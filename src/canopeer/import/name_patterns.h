@@ -12,12 +12,12 @@ namespace canopeer {
 /// Which parts of a world are what: regular expressions (ECMAScript, searched for anywhere in a
 /// name, upper and lower case told apart). Empty: matches nothing; `counted`: every fruit.
 struct NamePatternOptions {
-  std::string fruit;
-  std::string counted;  ///< of the fruits, the ones a run is scored on
-  std::string leaf;
-  std::string stem;
-  std::string plant;  ///< models that are plants even where nothing in them matches
-  std::string skip;   ///< parts that are left out
+  std::string fruit{};
+  std::string counted{};  ///< of the fruits, the ones a run is scored on
+  std::string leaf{};
+  std::string stem{};
+  std::string plant{};  ///< models that are plants even where nothing in them matches
+  std::string skip{};   ///< parts that are left out
 };
 
 /// Tells classes by names. A piece has many names; the most specific one that matches any pattern
