@@ -83,7 +83,7 @@ TEST_F(MapFuse, ATumSequenceBecomesTheMapOfItsFrames) {
   }
   expect_same_map(map, by_hand);
 
-  // From the frames before they went to disk: but for the rounding of depth to 1/30 mm.
+  // From the frames before they went to disk: but for the rounding of depth to 1/20 mm.
   VoxelMap direct = empty_map();
   for (const auto& view : scene.views) fuse(direct, view.frame, {});
   std::int64_t different = 0;

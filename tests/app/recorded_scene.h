@@ -13,8 +13,8 @@ struct RecordedScene {
   std::vector<BallScene::View> views;
 
   static RecordedScene make(std::uint64_t seed, int count);
-  /// Depth units of the sequences written below: fine enough for the scene's depths (2.1 m).
-  static constexpr double kDepthUnits = 30000.0;
+  /// Depth units of the sequences written below: fine, and room for all depths in range (3 m).
+  static constexpr double kDepthUnits = 20000.0;
 
   /// depth.txt, rgb.txt (fruit red, all else green), groundtruth.txt with poses every half second
   /// (those in between are other views' and must not be taken), camera.yaml.

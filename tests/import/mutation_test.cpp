@@ -71,24 +71,6 @@ TEST(DamagedFiles, SceneFilesAreReadOrRefused) {
   }
 }
 
-TEST(DamagedFiles, MeshesAreReadOrRefused) {
-  const test::WorldFiles files;
-  const std::vector<test::Painted> surfaces = {
-      {"red", test::ball(Vec3(0, 0, 1), 0.04), {204, 41, 9}, ""},
-      {"leaf", test::sheet(Vec3(0, 0, 0), Vec3(1, 1, 0)), {60, 83, 22}, ""}};
-  const std::vector<std::string> words = {"<", ">", "-1", "99999999", "nan", "1e39", "\n", "0"};
-  for (const auto& [name, good] :
-       {std::pair{"a.dae", test::dae(surfaces)}, std::pair{"a.obj", test::obj(surfaces, "a.mtl")},
-        std::pair{"a.ply", test::colored_ply(surfaces)}}) {
-    Rng rng(3, name);
-    for (int i = 0; i < 150; ++i) {
-      const auto path = files.add(name, damaged(good, words, rng));
-      TextureStore textures;
-      expect_value_or_message(read_mesh_file(path, {}, textures), i);
-    }
-  }
-}
-
 TEST(DamagedFiles, WorldsAreReadOrRefused) {
   const test::WorldFiles files;
   files.add("ball.stl", test::binary_stl(test::ball(Vec3(0, 0, 0), 0.04)));

@@ -75,6 +75,32 @@ Rgb to_rgb(const aiColor4D& c) {
   return {level(c.r), level(c.g), level(c.b)};
 }
 
+/// Damaged files make faces without corners and meshes that are wrong about what faces they have;
+/// the library's triangulation ends the process over either, so both are put right before it.
+void repair_faces(aiMesh& mesh) {
+  unsigned kept = 0;
+  mesh.mPrimitiveTypes = 0;
+  for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+    const unsigned corners = mesh.mFaces[i].mNumIndices;
+    if (corners == 0) continue;
+    mesh.mPrimitiveTypes |= corners == 1   ? aiPrimitiveType_POINT
+                            : corners == 2 ? aiPrimitiveType_LINE
+                            : corners == 3 ? aiPrimitiveType_TRIANGLE
+                                           : aiPrimitiveType_POLYGON;
+    if (kept != i) mesh.mFaces[kept] = mesh.mFaces[i];
+    ++kept;
+  }
+  mesh.mNumFaces = kept;
+}
+
+/// The file's scene, all of it triangles; nullptr when the library cannot read it.
+const aiScene* read_triangles(Assimp::Importer& importer, const fs::path& path) {
+  if (importer.ReadFile(path.string(), aiProcess_ValidateDataStructure) == nullptr) return nullptr;
+  const aiScene* const scene = importer.GetScene();
+  for (unsigned i = 0; i < scene->mNumMeshes; ++i) repair_faces(*scene->mMeshes[i]);
+  return importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
+}
+
 /// One assimp mesh in its own frame. Faces that are no triangles or point outside are left out.
 MeshPiece to_piece(const aiMesh& from) {
   MeshPiece piece;
@@ -161,9 +187,7 @@ Expected<MeshFile> read_mesh_file(const fs::path& path, const MeshFileOptions& o
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   MeshFile file;
   try {
-    const aiScene* const scene =
-        importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_SortByPType |
-                                             aiProcess_ValidateDataStructure);
+    const aiScene* const scene = read_triangles(importer, path);
     if (scene == nullptr || scene->mRootNode == nullptr) {
       return fail(path.string() + ": cannot be read: " + importer.GetErrorString());
     }

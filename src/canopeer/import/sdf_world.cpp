@@ -1,6 +1,8 @@
 #include "canopeer/import/sdf_world.h"
 
 #include <algorithm>
+#include <functional>
+#include <mutex>
 #include <sdf/Console.hh>
 #include <sdf/Link.hh>
 #include <sdf/Model.hh>
@@ -44,6 +46,24 @@ class IncludeFinder {
  private:
   const ModelPaths& paths_;
   std::vector<fs::path> folders_;
+};
+
+/// Has the library ask us wherever it does not know better, as long as this lives. One at a time.
+class GlobalFinder {
+ public:
+  explicit GlobalFinder(std::function<std::string(const std::string&)> find) : lock_(mutex()) {
+    sdf::ParserConfig::GlobalConfig().SetFindCallback(std::move(find));
+  }
+  GlobalFinder(const GlobalFinder&) = delete;
+  GlobalFinder& operator=(const GlobalFinder&) = delete;
+  ~GlobalFinder() { sdf::ParserConfig::GlobalConfig().SetFindCallback({}); }
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex only;
+    return only;
+  }
+  std::lock_guard<std::mutex> lock_;
 };
 
 /// Errors of the library about what has neither shape nor place.
@@ -223,9 +243,13 @@ Expected<SdfWorld> WorldReader::read() {
   sdf::ParserConfig config;
   config.SetWarningsPolicy(sdf::EnforcementPolicy::LOG);
   config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::LOG);
-  // The library asks for the world file itself, too.
-  config.SetFindCallback(
-      [&](const std::string& uri) { return uri == path_.string() ? uri : finder.find(uri); });
+  // The library asks for the world file itself, too. And it forgets our settings when an included
+  // model includes another: then it asks by the settings of the process.
+  const auto find = [&](const std::string& uri) {
+    return uri == path_.string() ? uri : finder.find(uri);
+  };
+  config.SetFindCallback(find);
+  const GlobalFinder global(find);
   sdf::Root root;
   const sdf::Errors errors = root.Load(path_.string(), config);
   if (auto ok = judge(errors); !ok) return tl::unexpected(ok.error());
