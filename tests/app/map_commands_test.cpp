@@ -120,7 +120,7 @@ TEST_F(MapFuse, OptionsPickFramesRangeAndFruit) {
   const std::string same_camera = std::to_string(k.fx) + "," + std::to_string(k.fy) + "," +
                                   std::to_string(k.cx - 0.5) + "," + std::to_string(k.cy - 0.5);
   fs::remove(dataset / "camera.yaml");
-  const VoxelMap other = fused(dataset, {"--intrinsics", same_camera, "--depth-factor", "30000"});
+  const VoxelMap other = fused(dataset, {"--intrinsics", same_camera, "--depth-factor", "20000"});
   EXPECT_NEAR(static_cast<double>(other.occupied_voxels()),
               static_cast<double>(with_roi.occupied_voxels()), 10.0);
 }
