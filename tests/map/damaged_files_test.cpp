@@ -19,7 +19,9 @@ using Parse = std::function<bool(std::string_view)>;  ///< true: it was a map
 VoxelMap small_map() { return BallScene::map(7, 1, 0.08); }
 
 std::string octomap_bytes(Expected<void> (*write)(const VoxelMap&, const std::filesystem::path&)) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "canopeer_damaged";
+  // Tests run side by side: each has files of its own.
+  const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+  const auto path = std::filesystem::path(testing::TempDir()) / ("canopeer_damaged_" + test);
   EXPECT_TRUE(write(small_map(), path).has_value());
   return *read_file(path);
 }

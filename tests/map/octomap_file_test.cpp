@@ -16,8 +16,10 @@
 namespace canopeer {
 namespace {
 
+// Tests run side by side: each has files of its own.
 std::filesystem::path temporary(const std::string& name) {
-  return std::filesystem::path(testing::TempDir()) / name;
+  const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+  return std::filesystem::path(testing::TempDir()) / (test + "_" + name);
 }
 
 // OctoMap's reading of the file, expanded to voxels.
