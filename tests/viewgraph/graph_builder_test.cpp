@@ -80,6 +80,18 @@ TEST(GraphBuilder, TheGraphIsTheSameWithAnyNumberOfThreads) {
   EXPECT_EQ(one.work.units(Work::state_check), two.work.units(Work::state_check));
 }
 
+TEST(GraphBuilder, NoKindTakesMoreThanItsShare) {
+  const test::PlanningFixture world;
+  GraphBuilderOptions options;
+  options.max_nodes = 200;
+  options.batch = 8;
+  const Grown grown = grow(world, 400, options);
+  const auto most = [&](double share) { return share * options.max_nodes + options.batch; };
+  EXPECT_LE(grown.graph.open_views(TargetKind::occupied), most(options.shares.occupied));
+  EXPECT_LE(grown.graph.open_views(TargetKind::border), most(options.shares.border));
+  EXPECT_GE(grown.graph.open_views(TargetKind::border), options.shares.border * options.max_nodes);
+}
+
 TEST(GraphBuilder, RestsWhenFullAndMakesRoomWhenTargetsChange) {
   const test::PlanningFixture world;
   GraphBuilderOptions options;
