@@ -1,16 +1,31 @@
 #!/usr/bin/env bash
-# Builds the benchmarks and runs them, each beside its baseline: ./bench.sh [--only map] [--json FILE]
+# Builds the benchmarks and runs them, each beside its baseline: ./bench.sh [--only NAME] [--json FILE] [--filter REGEX]
 set -euo pipefail
 cd "$(dirname "$0")"
-only=map
+names=$(cd bench && ls -- *_bench.cpp | sed 's/_bench\.cpp$//')
+only=
 json=
+filter=
 while [ $# -gt 0 ]; do
   case $1 in
     --only) only=${2:?--only needs a name}; shift 2 ;;
     --json) json=${2:?--json needs a file}; shift 2 ;;
-    *) echo "bench.sh: unknown option '$1' (--only NAME, --json FILE)" >&2; exit 2 ;;
+    --filter) filter=${2:?--filter needs a pattern}; shift 2 ;;
+    *) echo "bench.sh: unknown option '$1' (--only NAME, --json FILE, --filter REGEX)" >&2; exit 2 ;;
   esac
 done
-[ "$only" = map ] || { echo "bench.sh: no benchmark '$only'; there is: map" >&2; exit 2; }
-scripts/build.sh release "${only}_bench"
-"build/release/bin/${only}_bench" ${json:+"--benchmark_out=$json" --benchmark_out_format=json}
+if [ -n "$only" ]; then
+  grep -qx -- "$only" <<<"$names" || { echo "bench.sh: no benchmark '$only'; there are:" $names >&2; exit 2; }
+  names=$only
+fi
+rows=$(mktemp -d)
+trap 'rm -rf "$rows"' EXIT
+scripts/build.sh release $(printf '%s_bench ' $names)
+for name in $names; do
+  "build/release/bin/${name}_bench" --json "$rows/$name.json" ${filter:+"--benchmark_filter=$filter"}
+done
+if [ -n "$json" ]; then
+  # One list of all programs' rows: the brackets of the parts go, commas come between them.
+  { echo '['; sed -e '/^\[\(\]\)\?$/d' -e '/^\]$/d' -e 's/^  }$/  },/' "$rows"/*.json | sed '$ s/},$/}/'; echo ']'; } >"$json.tmp"
+  mv "$json.tmp" "$json"
+fi

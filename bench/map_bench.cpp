@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ball_scene.h"
+#include "bench_rows.h"
 #include "canopeer/map/distance_field.h"
 #include "canopeer/map/frontier.h"
 #include "canopeer/map/fusion.h"
@@ -124,7 +125,7 @@ void octomap_fuse(benchmark::State& state) {
     tree.insertPointCloud(cloud, point(views()[0].frame.T_world_camera.translation()), 3.0);
   }
 }
-BENCHMARK(octomap_fuse)->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK(octomap_fuse)->Unit(benchmark::kMillisecond)->Iterations(1)->Repetitions(1);
 
 void view_cast(benchmark::State& state) {
   const ViewFan fan = fan_of(state.range(0));
@@ -259,9 +260,30 @@ BENCHMARK(distance_field_query);
 
 int main(int argc, char** argv) {
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   canopeer::fused_map();  // the scene is made before anything is timed
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  return canopeer::run_benchmarks(argc, argv,
+                                  {{.name = "map.fuse_projective",
+                                    .ours = "fuse_next",
+                                    .baseline = "octomap_fuse",
+                                    .unit = "ms"},
+                                   {.name = "map.fuse_exact",
+                                    .ours = "fuse_exact_next",
+                                    .baseline = "octomap_fuse",
+                                    .unit = "ms"},
+                                   {.name = "map.view_63",
+                                    .ours = "view_cast/63",
+                                    .baseline = "octomap_view_cast/63",
+                                    .unit = "us"},
+                                   {.name = "map.view_192",
+                                    .ours = "view_cast/192",
+                                    .baseline = "octomap_view_cast/192",
+                                    .unit = "us"},
+                                   {.name = "map.view_1200",
+                                    .ours = "view_cast/1200",
+                                    .baseline = "octomap_view_cast/1200",
+                                    .unit = "us"},
+                                   {.name = "map.frontiers",
+                                    .ours = "frontiers",
+                                    .baseline = "octomap_frontiers",
+                                    .unit = "us"}});
 }
