@@ -51,6 +51,34 @@ TEST(ViewCast, FindsTheVoxelsAPlainWalkerFinds) {
   }
 }
 
+TEST(ViewCast, EndsARayAfterItsShareOfUnknownSpace) {
+  const VoxelMap map = BallScene::map(1, 2);
+  Rng rng(1, "short views");
+  for (int i = 0; i < 20; ++i) {
+    const Pose T_world_camera = BallScene::random_camera(rng);
+    ViewFan fan;
+    fan.columns = fan.rows = 5;
+    fan.max_unknown_m = 0.02 + 0.02 * i;
+    Voxels expected;
+    for (int ray = 0; ray < 25; ++ray) {
+      const Vec3 end(std::tan(fan.fov_x_rad / 2) * (ray % 5 / 2.0 - 1.0),
+                     std::tan(fan.fov_y_rad / 2) * (ray / 5 / 2.0 - 1.0), 1.0);
+      const Vec3 to = T_world_camera * end;
+      int crossed = 0, unknown = 0;
+      walk_voxels(T_world_camera.translation(), to, map.resolution_m(),
+                  [&](const VoxelIndex&) { return ++crossed > 0; });
+      const double limit = std::ceil(crossed * fan.max_unknown_m / end.norm());
+      walk_voxels(T_world_camera.translation(), to, map.resolution_m(), [&](const VoxelIndex& v) {
+        if (map.occupancy(v) == Occupancy::occupied) return false;
+        if (map.occupancy(v) == Occupancy::free) return true;
+        expected.insert({v.x(), v.y(), v.z()});
+        return ++unknown < limit;
+      });
+    }
+    EXPECT_EQ(as_set(cast_view(map, T_world_camera, fan).unknown), expected) << "view " << i;
+  }
+}
+
 // Rays from lattice points cross edges and corners of voxels, where ties decide; clear blocks are
 // passed in one go.
 TEST(ViewCast, LeapsOverClearBlocksOntoTheVoxelsAPlainWalkerFinds) {

@@ -137,6 +137,7 @@ void read_search(YamlMap search, VmpOptions& o) {
   p.fan.fov_y_rad = search.number("fan_fov_y_deg", p.fan.fov_y_rad / kRad, {1.0, 170.0}) * kRad;
   p.fan.columns = search.integer("fan_columns", p.fan.columns, 1, 1000);
   p.fan.rows = search.integer("fan_rows", p.fan.rows, 1, 1000);
+  p.fan.max_unknown_m = search.number("max_unknown_m", p.fan.max_unknown_m, {0.01, 10.0});
   p.fan.depth_m = search.number("fan_depth_m", p.fan.depth_m, {0.05, 10.0});
   o.random_walk_views = search.integer("random_walk_views", o.random_walk_views, 1, 1000);
 }

@@ -20,6 +20,13 @@ bool in_block(const VoxelIndex& voxel, const VoxelIndex& origin) {
           ~(kBlockSide - 1)) == 0;
 }
 
+// How many voxels of this walk make up `max_unknown_m`: rays cross more of them along a diagonal.
+int unknown_voxels(const VoxelWalk& walk, double length_m, double max_unknown_m) {
+  const double all = walk.steps + 1.0;
+  return static_cast<int>(max_unknown_m < length_m ? std::ceil(all * max_unknown_m / length_m)
+                                                   : all);
+}
+
 // A voxel of the caster's window in one word: 21 bits an axis, x lowest, from the window's corner.
 using Packed = std::int64_t;
 constexpr int kFieldBits = 21;
@@ -127,7 +134,8 @@ class Caster {
     crossed_.reserve(1024);
   }
 
-  void cast(const Vec3& from, const Vec3& to);
+  // The ray ends after crossing `max_unknown_m` of unknown space.
+  void cast(const Vec3& from, const Vec3& to, double max_unknown_m);
   [[nodiscard]] ViewCast result() const;
 
  private:
@@ -197,27 +205,27 @@ std::uint32_t Caster::number_new(int x, int y, int z) {
   return static_cast<std::uint32_t>(crossed_.size() - 1) + kFirst;
 }
 
-void Caster::cast(const Vec3& from, const Vec3& to) {
-  WalkingRay ray(VoxelWalk(from, to, map_.resolution_m()), first_block_ * kBlockSide);
+void Caster::cast(const Vec3& from, const Vec3& to, double max_unknown_m) {
+  const VoxelWalk walk(from, to, map_.resolution_m());
+  WalkingRay ray(walk, first_block_ * kBlockSide);
+  int unknown_left = unknown_voxels(walk, (to - from).norm(), max_unknown_m);
   while (!ray.ended()) {
     Crossed* block = enter(ray.at());
     const Packed here = ray.at() & ~kInBlock;
     if (block == nullptr) {
       ray.leave_block();
-    } else if (block->occupied == nullptr) {
-      do {
-        block->voxels.slices[slice_of(ray.at())] |= bit_of(ray.at());
-        ray.step();
-      } while (!ray.ended() && (ray.at() & ~kInBlock) == here);
-    } else {
-      do {
-        const std::size_t slice = slice_of(ray.at());
-        const std::uint64_t bit = bit_of(ray.at());
-        if ((block->occupied->slices[slice] & bit) != 0) return;
-        block->voxels.slices[slice] |= bit;
-        ray.step();
-      } while (!ray.ended() && (ray.at() & ~kInBlock) == here);
+      continue;
     }
+    do {
+      const std::size_t slice = slice_of(ray.at());
+      const std::uint64_t bit = bit_of(ray.at());
+      if (block->occupied != nullptr && (block->occupied->slices[slice] & bit) != 0) return;
+      block->voxels.slices[slice] |= bit;
+      const bool known =
+          block->known != nullptr && (block->known->observed.slices[slice] & bit) != 0;
+      if (!known && --unknown_left == 0) return;
+      ray.step();
+    } while (!ray.ended() && (ray.at() & ~kInBlock) == here);
   }
 }
 
@@ -264,7 +272,8 @@ ViewCast cast_view(const VoxelMap& map, const Pose& T_world_camera, const ViewFa
   Caster caster(map, world);
   for (int row = 0; row < fan.rows; ++row) {
     for (int column = 0; column < fan.columns; ++column) {
-      caster.cast(from, end(place(column, fan.columns, extent_x), place(row, fan.rows, extent_y)));
+      caster.cast(from, end(place(column, fan.columns, extent_x), place(row, fan.rows, extent_y)),
+                  fan.max_unknown_m);
     }
   }
   return caster.result();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct ViewFan {
   int columns = 16;
   int rows = 12;
   double depth_m = 1.0;  ///< along the optical axis, of every ray's end
+  /// A ray ends when it has crossed so much unknown space (rounded up to voxels, at least one):
+  /// what lies behind it is likely hidden by something not seen yet. Infinite: as in [Zaenker23].
+  double max_unknown_m = std::numeric_limits<double>::infinity();
 };
 
 struct ViewCast {
@@ -26,7 +30,8 @@ struct ViewCast {
 };
 
 /// What a camera at T_world_camera (optical frame) would newly see: C(n) of [Zaenker23] Alg. 1 for
-/// one view. Rays stop before the first occupied voxel.
+/// one view. Rays stop before the first occupied voxel, or after `fan.max_unknown_m` of
+/// unknown ones.
 ViewCast cast_view(const VoxelMap& map, const Pose& T_world_camera, const ViewFan& fan = {});
 
 /// None of the blocks the rays crossed is in `changed_sorted`.
