@@ -148,6 +148,39 @@ TEST(MeshFile, PlyKeepsItsVertexColours) {
   EXPECT_LT(red, static_cast<int>(piece.vertex_colors.size()) - 50);
 }
 
+TEST(MeshFile, BinaryPlyAndTextStlAreReadToo) {
+  const test::WorldFiles files;
+  const MeshFile ply = read(files.add("plant.ply", test::binary_colored_ply(two_fruits())));
+  ASSERT_EQ(ply.pieces.size(), 1U);
+  EXPECT_EQ(ply.pieces[0].vertex_colors.front(), (Rgb{204, 41, 9}));
+  EXPECT_EQ(ply.pieces[0].vertex_colors.back(), (Rgb{162, 154, 35}));
+  const MeshFile stl = read(files.add("fruit.stl", test::ascii_stl(test::ball(kRed, 0.04))));
+  expect_box(stl.pieces.at(0).mesh.bounds(), kRed, 0.04);
+}
+
+TEST(MeshFile, GltfTextWithItsNumbersBesideItStandsUp) {
+  const test::WorldFiles files;
+  files.add("plant.bin", test::gltf_bin(two_fruits()));
+  const MeshFile file = read(files.add("plant.gltf", test::gltf(two_fruits(), "plant.bin")));
+  expect_box(piece_named(file, "red").mesh.bounds(), kRed, 0.04);
+  expect_box(piece_named(file, "green").mesh.bounds(), kGreen, 0.03);
+  EXPECT_GT(piece_named(file, "red").mesh.volume(), 0.0);
+  std::filesystem::remove(files.path() / "plant.bin");
+  EXPECT_NE(error_of(files.path() / "plant.gltf").find("plant.gltf: cannot be read"),
+            std::string::npos);
+}
+
+TEST(MeshFile, ClearMaterialsOfObjAreSeenThrough) {
+  const test::WorldFiles files;
+  files.add("pane.mtl", "newmtl glass\nKd 1 1 1\nd 0.2\nnewmtl wood\nKd 1 0.5 0\nd 0.9\n");
+  const MeshFile file = read(files.add(
+      "pane.obj",
+      "mtllib pane.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl glass\nf 1 2 3\nusemtl "
+      "wood\nf 1 2 4\n"));
+  EXPECT_TRUE(piece_named(file, "glass").see_through);
+  EXPECT_FALSE(piece_named(file, "wood").see_through);
+}
+
 TEST(MeshFile, AMissingTextureIsANoticeThatSaysWhoWantsIt) {
   const test::WorldFiles files;
   const auto path = files.add(
@@ -189,13 +222,17 @@ TEST(MeshFile, WhatCannotBeReadIsNamed) {
 TEST(MeshFile, FilesThatAreCutOffAreErrorsOrShorterNeverWorse) {
   const test::WorldFiles files;
   files.add("plant.mtl", test::mtl(two_fruits()));
+  files.add("plant.bin", test::gltf_bin(two_fruits()));
   for (const auto& [name, content] :
        {std::pair{"plant.dae", test::dae(two_fruits())},
         std::pair{"plant.obj", test::obj(two_fruits(), "plant.mtl")},
         std::pair{"plant.stl", test::binary_stl(test::ball(kRed, 0.04))},
-        std::pair{"plant.ply", test::colored_ply(two_fruits())}}) {
-    for (int i = 1; i < 12; ++i) {
-      const auto path = files.add(name, content.substr(0, content.size() * i / 12));
+        std::pair{"text.stl", test::ascii_stl(test::ball(kRed, 0.04))},
+        std::pair{"plant.ply", test::colored_ply(two_fruits())},
+        std::pair{"binary.ply", test::binary_colored_ply(two_fruits())},
+        std::pair{"plant.gltf", test::gltf(two_fruits(), "plant.bin")}}) {
+    for (int i = 1; i < 24; ++i) {
+      const auto path = files.add(name, content.substr(0, content.size() * i / 24));
       TextureStore textures;
       const auto file = read_mesh_file(path, {}, textures);
       if (!file) {

@@ -196,6 +196,94 @@ std::string colored_ply(const std::vector<Painted>& surfaces) {
   return out.str();
 }
 
+std::string ascii_stl(const TriangleMesh& mesh) {
+  std::ostringstream out;
+  out.precision(9);
+  out << "solid thing\n";
+  for (const auto& t : mesh.triangles) {
+    out << "facet normal 0 0 1\nouter loop\n";
+    for (const auto i : t) {
+      const auto& v = mesh.vertices[i];
+      out << "vertex " << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
+    }
+    out << "endloop\nendfacet\n";
+  }
+  out << "endsolid thing\n";
+  return out.str();
+}
+
+std::string binary_colored_ply(const std::vector<Painted>& surfaces) {
+  std::string text = colored_ply(surfaces);
+  text = text.substr(0, text.find("end_header\n") + 11);
+  text.replace(text.find("ascii"), 5, "binary_little_endian");
+  std::uint32_t offset = 0;
+  std::string faces;
+  for (const Painted& s : surfaces) {
+    for (const auto& v : s.mesh.vertices) {
+      text.append(reinterpret_cast<const char*>(v.data()), 12);
+      text += {static_cast<char>(s.color.r), static_cast<char>(s.color.g),
+               static_cast<char>(s.color.b)};
+    }
+    for (const auto& t : s.mesh.triangles) {
+      faces += '\x03';
+      for (const std::uint32_t i : {t[0] + offset, t[1] + offset, t[2] + offset}) {
+        faces.append(reinterpret_cast<const char*>(&i), 4);
+      }
+    }
+    offset += static_cast<std::uint32_t>(s.mesh.vertices.size());
+  }
+  return text + faces;
+}
+
+std::string gltf_bin(const std::vector<Painted>& surfaces) {
+  std::string bytes;
+  for (const Painted& s : surfaces) {
+    for (const auto& v : s.mesh.vertices) {
+      const Eigen::Vector3f p(v.x(), v.z(), -v.y());
+      bytes.append(reinterpret_cast<const char*>(p.data()), 12);
+    }
+    for (const auto& t : s.mesh.triangles) {
+      bytes.append(reinterpret_cast<const char*>(t.data()), 12);
+    }
+  }
+  return bytes;
+}
+
+std::string gltf(const std::vector<Painted>& surfaces, const std::string& bin_file) {
+  std::ostringstream views;
+  std::ostringstream accessors;
+  std::ostringstream materials;
+  std::ostringstream primitives;
+  std::size_t at = 0;
+  int index = 0;
+  for (const Painted& s : surfaces) {
+    const char* const comma = index == 0 ? "" : ",";
+    const std::size_t points = 12 * s.mesh.vertices.size();
+    const std::size_t corners = 12 * s.mesh.triangles.size();
+    const Box box = s.mesh.bounds();
+    views << comma << R"({"buffer":0,"byteOffset":)" << at << R"(,"byteLength":)" << points
+          << R"(},{"buffer":0,"byteOffset":)" << at + points << R"(,"byteLength":)" << corners
+          << "}";
+    accessors << comma << R"({"bufferView":)" << 2 * index
+              << R"(,"componentType":5126,"type":"VEC3","count":)" << s.mesh.vertices.size()
+              << R"(,"min":[)" << box.min().x() << ',' << box.min().z() << ',' << -box.max().y()
+              << R"(],"max":[)" << box.max().x() << ',' << box.max().z() << ',' << -box.min().y()
+              << R"(]},{"bufferView":)" << 2 * index + 1
+              << R"(,"componentType":5125,"type":"SCALAR","count":)" << 3 * s.mesh.triangles.size()
+              << "}";
+    materials << comma << R"({"name":")" << s.material
+              << R"(","pbrMetallicRoughness":{"baseColorFactor":[0.6,0.02,0.003,1]}})";
+    primitives << comma << R"({"attributes":{"POSITION":)" << 2 * index << R"(},"indices":)"
+               << 2 * index + 1 << R"(,"material":)" << index << "}";
+    at += points + corners;
+    ++index;
+  }
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"name":"plant","mesh":0}],"meshes":[{"name":"plant_mesh","primitives":[)" +
+         primitives.str() + R"(]}],"materials":[)" + materials.str() + R"(],"accessors":[)" +
+         accessors.str() + R"(],"bufferViews":[)" + views.str() + R"(],"buffers":[{"uri":")" +
+         bin_file + R"(","byteLength":)" + std::to_string(at) + "}]}";
+}
+
 TriangleMesh ball(const Vec3& centre, double radius) {
   constexpr std::uint32_t kAround = 16;
   constexpr std::uint32_t kRings = 8;

@@ -37,6 +37,14 @@ std::string binary_stl(const TriangleMesh& mesh);
 /// ASCII, with vertex colours.
 std::string colored_ply(const std::vector<Painted>& surfaces);
 
+std::string ascii_stl(const TriangleMesh& mesh);
+/// Little-endian, with vertex colours.
+std::string binary_colored_ply(const std::vector<Painted>& surfaces);
+/// glTF as text: one mesh, one primitive for each surface, its numbers in the file `bin_file`; z up
+/// becomes y up, as the format has it.
+std::string gltf(const std::vector<Painted>& surfaces, const std::string& bin_file);
+std::string gltf_bin(const std::vector<Painted>& surfaces);
+
 /// A ball of 16 × 8 facets; its box is exactly `centre` ± `radius`.
 TriangleMesh ball(const Vec3& centre, double radius);
 /// A rectangle in the x–y plane.

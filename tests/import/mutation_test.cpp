@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
+#include "canopeer/base/atomic_file.h"
 #include "canopeer/base/rng.h"
 #include "canopeer/config/scan_rows_file.h"
 #include "canopeer/import/collada_asset.h"
+#include "canopeer/import/mesh_file.h"
+#include "canopeer/import/scene_glb.h"
 #include "canopeer/import/world_import.h"
 #include "mesh_writers.h"
 #include "world_files.h"
@@ -11,8 +14,8 @@ namespace canopeer {
 namespace {
 
 // Files that were good and have been damaged at random: each must be read or refused with a message
-// of one line. fuzz/ does the same led by coverage, for as long as one likes. Meshes are not among
-// them: the library that parses those ends the process, or hangs, on some.
+// of one line. fuzz/ does the same led by coverage, for as long as one likes, with what we parse
+// ourselves. The library that parses meshes ends its process, or hangs, over some.
 
 /// Some bytes changed, put in twice, taken out, or replaced by a word of the format.
 std::string damaged(std::string text, const std::vector<std::string>& words, Rng& rng) {
@@ -69,6 +72,85 @@ TEST(DamagedFiles, SceneFilesAreReadOrRefused) {
   for (int i = 0; i < 4000; ++i) {
     expect_value_or_message(parse_scan_rows(damaged(good, words, rng), "rows.yaml"), i);
   }
+}
+
+/// Damages `good` many times over; each time it must be read, whole and finite, or refused by name.
+void expect_meshes_or_messages(const std::string& name, const std::string& good,
+                               const std::vector<std::string>& words) {
+  const test::WorldFiles files;
+  const std::vector<test::Painted> surfaces = {{"red", test::ball(Vec3(0, 0, 1), 0.04), {}, ""}};
+  files.add("good.mtl", test::mtl(surfaces));
+  files.add("good.bin", test::gltf_bin(surfaces));
+  // Other damage: --gtest_random_seed=N.
+  Rng rng(5 + static_cast<unsigned>(::testing::UnitTest::GetInstance()->random_seed()),
+          "damaged " + name);
+  MeshFileOptions options;
+  options.least_cpu_s = 1.0;
+  options.least_memory_bytes = 256UL << 20U;
+  int read = 0;
+  int ended = 0;
+  constexpr int kRounds = 200;
+  for (int i = 0; i < kRounds; ++i) {
+    const auto path = files.add(name, damaged(good, words, rng));
+    TextureStore textures;
+    const auto file = read_mesh_file(path, options, textures);
+    if (!file) {
+      EXPECT_EQ(file.error().message.find(path.string()), 0U) << file.error().message;
+      ended += file.error().message.find("its reader") != std::string::npos;
+      continue;
+    }
+    ++read;
+    for (const MeshPiece& piece : file->pieces) {
+      for (const auto& v : piece.mesh.vertices) ASSERT_TRUE(v.allFinite()) << name << i;
+    }
+  }
+  EXPECT_GT(read, 0);
+  EXPECT_LT(read, kRounds);
+  ::testing::Test::RecordProperty("readers_ended_" + name.substr(0, 1), ended);
+}
+
+std::vector<test::Painted> a_fruit() {
+  return {{"red", test::ball(Vec3(0, 0, 1), 0.04), {204, 41, 9}, ""}};
+}
+
+TEST(DamagedFiles, ColladaMeshesAreReadOrRefused) {
+  expect_meshes_or_messages("a.dae", test::dae(a_fruit()),
+                            {"<node>", "</node>", "count=\"", "-1", "99999999", "#geo", "<p>",
+                             "</p>", "nan", "<", "offset=\"7\""});
+}
+
+TEST(DamagedFiles, ObjMeshesAreReadOrRefused) {
+  expect_meshes_or_messages("a.obj", test::obj(a_fruit(), "good.mtl"),
+                            {"f ", "v ", "-1", "99999999", "/", "\n", "usemtl ", "1e400", "vt "});
+}
+
+TEST(DamagedFiles, StlMeshesAreReadOrRefused) {
+  expect_meshes_or_messages("a.stl", test::ascii_stl(a_fruit()[0].mesh),
+                            {"facet", "vertex", "solid", "1e400", "nan", "endloop"});
+  expect_meshes_or_messages("b.stl", test::binary_stl(a_fruit()[0].mesh),
+                            {std::string(4, '\xff'), std::string(4, '\0'), "solid "});
+}
+
+TEST(DamagedFiles, PlyMeshesAreReadOrRefused) {
+  const std::vector<std::string> words = {
+      "element vertex 99999999", "list ",  "property ", "uchar", "-1",
+      std::string(4, '\xff'),    "format "};
+  expect_meshes_or_messages("a.ply", test::colored_ply(a_fruit()), words);
+  expect_meshes_or_messages("b.ply", test::binary_colored_ply(a_fruit()), words);
+}
+
+TEST(DamagedFiles, GltfMeshesAreReadOrRefused) {
+  const std::vector<std::string> words = {"-1",  "99999999999", "{",    "}",
+                                          "[0]", "\"count\":",  "1e99", "null"};
+  expect_meshes_or_messages("a.gltf", test::gltf(a_fruit(), "good.bin"), words);
+  Scene scene;
+  ScenePart part;
+  part.mesh = a_fruit()[0].mesh;
+  compute_normals(part.mesh);
+  scene.parts.push_back(part);
+  const test::WorldFiles files;
+  ASSERT_TRUE(write_scene_glb(files.path() / "good.glb", scene).has_value());
+  expect_meshes_or_messages("a.glb", read_file(files.path() / "good.glb").value_or(""), words);
 }
 
 TEST(DamagedFiles, WorldsAreReadOrRefused) {

@@ -96,6 +96,44 @@ TEST(SdfWorld, StateScalesAndDeletes) {
   expect_near(T.linear().diagonal(), Vec3(2, 3, 4));
 }
 
+TEST(SdfWorld, ModelsInsertedIntoARunningWorldAreThere) {
+  const test::WorldFiles files;
+  files.add("ball.stl", test::binary_stl(test::ball(Vec3(0, 0, 0), 0.04)));
+  const auto path = files.add_world(
+      model("first", "1 0 0 0 0 0", test::box_visual("1 1 1")) +
+      "<state world_name=\"test\"><insertions>" +
+      model("second", "2 0 0 0 0 0", test::mesh_visual("ball.stl")) +
+      model("third", "3 0 0 0 0 0", test::box_visual("1 1 1")) +
+      "</insertions><model name=\"third\"><pose>3 3 3 0 0 0</pose></model></state>");
+  const SdfWorld world = read(files, path);
+  ASSERT_EQ(world.visuals.size(), 3U);
+  EXPECT_TRUE(world.notices.empty());
+  expect_near(place_of(world, "second"), Vec3(2, 0, 0));
+  expect_near(place_of(world, "third"), Vec3(3, 3, 3));
+  EXPECT_EQ(world.visuals[1].mesh, files.path() / "ball.stl");
+}
+
+TEST(SdfWorld, APolylineIsExtruded) {
+  const test::WorldFiles files;
+  const std::string line =
+      "<polyline><point>0 0</point><point>2 0</point><point>2 1</point><point>1 1</point>"
+      "<point>1 3</point><point>0 3</point><height>0.5</height></polyline>";
+  const auto one = files.add_world(model(
+      "wall", "0 0 0 0 0 0", "<visual name=\"v\"><geometry>" + line + "</geometry></visual>"));
+  const SdfWorld world = read(files, one);
+  ASSERT_EQ(world.visuals.size(), 1U);
+  EXPECT_NEAR(world.visuals[0].primitive.volume(), 2.0, 1e-6);
+  const auto two = files.add_world(
+      model("wall", "0 0 0 0 0 0",
+            "<visual name=\"v\"><geometry>" + line + line + "</geometry></visual>"));
+  const SdfWorld hollow = read(files, two);
+  EXPECT_TRUE(hollow.visuals.empty());
+  ASSERT_EQ(hollow.notices.size(), 1U);
+  for (const char* word : {"world.world:", "<polyline>", "'wall'", "left out"}) {
+    EXPECT_NE(hollow.notices[0].find(word), std::string::npos) << hollow.notices[0];
+  }
+}
+
 TEST(SdfWorld, NestedModelsAndPosesRelativeToFramesResolve) {
   const test::WorldFiles files;
   const auto path = files.add_world(
@@ -154,6 +192,41 @@ TEST(SdfWorld, AnIncludedModelMayIncludeItsNeighbour) {
   const auto path =
       files.add_world("<include><uri>model://plant</uri><pose>1 0 0 0 0 0</pose></include>", "1.7");
   expect_near(place_of(read(files, path), "plant::leaf"), Vec3(1, 0, 1));
+}
+
+TEST(SdfWorld, IncludesNestAsDeepAsTheyLike) {
+  // A world includes a row by scheme, that a bay beside it, that a plant by scheme again, that a
+  // leaf beside it; two rows, so that each finds its own way back.
+  const test::WorldFiles files;
+  const auto folder = [&](const std::string& name, const std::string& body) {
+    files.add("models/" + name + "/model.config",
+              "<model><name>m</name><sdf version=\"1.7\">model.sdf</sdf></model>");
+    files.add("models/" + name + "/model.sdf",
+              "<sdf version=\"1.7\"><model name=\"m\">" + body + "</model></sdf>");
+  };
+  const auto include = [](const std::string& uri, const std::string& name, const std::string& x) {
+    return "<include><uri>" + uri + "</uri><name>" + name + "</name><pose>" + x +
+           " 0 0 0 0 0</pose></include>";
+  };
+  for (const std::string row : {"row_a", "row_b"}) {
+    folder(row, include("bay", "bay", "1"));
+    folder(row + "/bay",
+           include("model://plant", "plant", "10") + include("bay_box", "own", "0.5"));
+    folder(row + "/bay/bay_box", "<link name=\"l\">" + test::box_visual("1 1 1") + "</link>");
+  }
+  folder("plant", include("leaf", "leaf", "100"));
+  folder("plant/leaf", "<link name=\"l\">" + test::box_visual("1 1 1") + "</link>");
+  const auto path = files.add_world(
+      include("model://row_a", "a", "1000") + include("model://row_b", "b", "2000"), "1.7");
+  const SdfWorld world = read(files, path);
+  ASSERT_EQ(world.visuals.size(), 4U);
+  expect_near(place_of(world, "a::bay::plant::leaf"), Vec3(1111, 0, 0));
+  expect_near(place_of(world, "b::bay::plant::leaf"), Vec3(2111, 0, 0));
+  expect_near(place_of(world, "a::bay::own"), Vec3(1001.5, 0, 0));
+  for (const SdfVisual& v : world.visuals) {
+    if (v.names.model != "b::bay::own") continue;
+    EXPECT_NE(v.where.find("row_b/bay/bay_box"), std::string::npos) << v.where;
+  }
 }
 
 TEST(SdfWorld, MeshesAreFoundFromTheFileThatNamesThem) {
@@ -265,8 +338,12 @@ TEST(SdfWorld, ErrorsSayFileLineAndWhatWasExpected) {
     EXPECT_EQ(message.find('\n'), std::string::npos);
   };
   expect(files.path() / "no.world", {"no.world: no such file"});
-  expect(files.add("text.world", "hello"), {"text.world"});
-  expect(files.add("cut.world", "<sdf version=\"1.6\"><world name=\"w\">"), {"cut.world"});
+  expect(files.path(), {"is a folder", "expected a .world or .sdf file"});
+  expect(files.add("text.world", "hello"), {"text.world:1: is no sound XML"});
+  expect(files.add("nothing.world", ""), {"nothing.world:1: is no sound XML: empty document"});
+  expect(files.add("page.world", "<html/>"), {"page.world:1: expected <sdf", "found <html>"});
+  expect(files.add("cut.world", "<sdf version=\"1.6\">\n<world name=\"w\">\n</sdf>"),
+         {"cut.world:2: is no sound XML: mismatched element"});
   expect(files.add("empty.world", "<sdf version=\"1.6\"></sdf>"), {"empty.world"});
   expect(files.add_world("<include><uri>model://lost</uri></include>"),
          {"world.world:4", "include", "model://lost", "--model-path"});
@@ -277,7 +354,12 @@ TEST(SdfWorld, ErrorsSayFileLineAndWhatWasExpected) {
   expect(files.add_world(model("a", "0 0 0 0 0 0", "") + model("a", "0 0 0 0 0 0", "")),
          {"world.world", "a"});
   expect(files.add_world(model("box", "one two three", test::box_visual("1 1 1"))),
-         {"world.world", "pose"});
+         {"world.world", "pose", "expected six numbers"});
+  files.add("models/broken/model.config",
+            "<model><name>b</name><sdf version=\"1.6\">model.sdf</sdf></model>");
+  files.add("models/broken/model.sdf", "<sdf version=\"1.6\">\n<model name=\"b\">\n</sdf>");
+  expect(files.add_world("<include><uri>model://broken</uri></include>"),
+         {"models/broken/model.sdf:2: is no sound XML"});
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ namespace fs = std::filesystem;
 WorldFiles::WorldFiles() {
   std::string name = (fs::temp_directory_path() / "canopeer_world_XXXXXX").string();
   path_ = mkdtemp(name.data());
+  fs::create_directories(models());
 }
 
 WorldFiles::~WorldFiles() {

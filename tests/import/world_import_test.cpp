@@ -201,6 +201,46 @@ TEST(WorldImport, APatternThatMatchesNothingIsToldTheNames) {
       << parts_csv(imported);
 }
 
+TEST(WorldImport, WhatCannotBeRightIsSaid) {
+  const test::WorldFiles files;
+  add_plant(files, "a", {});
+  const std::string include = "<include><uri>model://a</uri><name>plant</name>";
+  auto options =
+      options_for(files, files.add_world(include + "<pose>1e9 0 0 0 0 0</pose></include>"));
+  const auto far = import_world(options);
+  ASSERT_FALSE(far.has_value());
+  EXPECT_NE(far.error().message.find("model 'plant'"), std::string::npos) << far.error().message;
+  EXPECT_NE(far.error().message.find("1000000 km"), std::string::npos) << far.error().message;
+
+  options.file = files.add_world("");
+  const auto empty = import_world(options);
+  ASSERT_FALSE(empty.has_value());
+  EXPECT_NE(empty.error().message.find("shows nothing"), std::string::npos);
+
+  options.file = files.add_world(include + "</include>");
+  options.patterns.skip = "plant";
+  const auto skipped = import_world(options);
+  ASSERT_FALSE(skipped.has_value());
+  EXPECT_NE(skipped.error().message.find("'plant', matches all"), std::string::npos)
+      << skipped.error().message;
+
+  options.model_paths = {files.path() / "elsewhere"};
+  const auto nowhere = import_world(options);
+  ASSERT_FALSE(nowhere.has_value());
+  EXPECT_NE(nowhere.error().message.find("elsewhere: no such folder"), std::string::npos);
+
+  options.model_paths = {files.models()};
+  options.patterns.skip.clear();
+  options.patterns.fruit = "leaf|fruit|bark";
+  options.file =
+      files.add_world(include +
+                      "</include><state world_name=\"test\"><model name=\"plant\"><pose>0 0 0 0 0 0"
+                      "</pose><scale>100 100 100</scale></model></state>");
+  const ImportedScene giant = import(options);
+  ASSERT_FALSE(giant.notices.empty());
+  EXPECT_NE(giant.notices.back().find("8.0 m long"), std::string::npos) << giant.notices.back();
+}
+
 TEST(WorldImport, ALoneMeshIsAWorldOfModels) {
   const test::WorldFiles files;
   WorldImportOptions options;

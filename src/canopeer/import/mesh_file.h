@@ -23,6 +23,10 @@ struct MeshFileOptions {
   /// COLLADA's <up_axis>: true turns the mesh upright as COLLADA asks; false takes coordinates as
   /// they are, as Gazebo does.
   bool honour_up_axis = true;
+  /// Processor time that even the smallest file may take, > 0; larger ones get more.
+  double least_cpu_s = 20.0;
+  /// Memory that even the smallest file may take while it is parsed; larger ones get more.
+  std::size_t least_memory_bytes = 4UL << 30U;
 };
 
 /// Whether read_mesh_file() knows the ending: .dae, .obj, .stl, .gltf, .glb, .ply.
@@ -30,8 +34,9 @@ struct MeshFileOptions {
 
 /// Reads a mesh with its materials, textures and vertex colours. COLLADA: unit, up axis and node
 /// matrices are followed, whatever assimp makes of them; glTF is y up and becomes z up; OBJ, STL
-/// and PLY say nothing and are taken as they are. Textures that are missing become notices. Error:
-/// a file that is not there, of no known kind, or broken; the message names it.
+/// and PLY say nothing and are taken as they are. Textures that are missing become notices. The
+/// file is parsed in a child process (guarded_call.h), with a limit on time and memory. Error: a
+/// file that is not there, of no known kind, or broken; the message names it.
 [[nodiscard]] Expected<MeshFile> read_mesh_file(const std::filesystem::path& path,
                                                 const MeshFileOptions& options,
                                                 TextureStore& textures);

@@ -12,8 +12,10 @@
 #include <sdf/Pbr.hh>
 #include <sdf/Plane.hh>
 #include <sdf/Sphere.hh>
+#include <sdf/Types.hh>
 #include <sdf/Visual.hh>
 
+#include "canopeer/import/extrusion.h"
 #include "canopeer/import/sdf_convert.h"
 #include "canopeer/import/shape_mesh.h"
 
@@ -56,8 +58,9 @@ void read_material(const sdf::Visual& from, const ModelPaths& paths, const fs::p
   }
   // A script's colour stands in files Gazebo keeps; <diffuse> beside it has no say there, but is
   // better than nothing here.
-  if (!result.color && material->Element() && material->Element()->HasElement("diffuse")) {
-    result.color = to_rgb(material->Diffuse());
+  if (material->Element() && material->Element()->HasElement("diffuse")) {
+    if (!result.color) result.color = to_rgb(material->Diffuse());
+    visual->see_through = visual->see_through || 1.0 - material->Diffuse().A() >= kLeastUnseen;
   }
   const sdf::Pbr* const pbr = material->PbrMaterial();
   if (pbr == nullptr) return;
@@ -87,6 +90,23 @@ Expected<void> read_mesh(const sdf::Mesh& mesh, const ModelPaths& paths, const f
   return {};
 }
 
+/// SDF's <polyline>, which the library passes on unread. False: there is none, or not one alone (of
+/// several, the inner ones are holes), or it is no outline.
+bool read_polyline(const sdf::Geometry& geometry, TriangleMesh* mesh) {
+  const sdf::ElementPtr element = geometry.Element();
+  if (!element || !element->HasElement("polyline")) return false;
+  const sdf::ElementPtr line = element->GetElement("polyline");
+  if (line->GetNextElement("polyline")) return false;
+  std::vector<Eigen::Vector2d> outline;
+  for (auto point = line->GetElement("point"); point; point = point->GetNextElement("point")) {
+    const auto p = point->Get<ignition::math::Vector2d>();
+    outline.emplace_back(p.X(), p.Y());
+  }
+  auto extruded = extruded_mesh(std::move(outline), line->Get<double>("height"));
+  if (extruded) *mesh = std::move(*extruded);
+  return extruded.has_value();
+}
+
 /// False: no such primitive here.
 bool read_primitive(const sdf::Geometry& geometry, TriangleMesh* mesh) {
   switch (geometry.Type()) {
@@ -110,8 +130,15 @@ bool read_primitive(const sdf::Geometry& geometry, TriangleMesh* mesh) {
                          geometry.PlaneShape()->Size().X(), geometry.PlaneShape()->Size().Y());
       return true;
     default:
-      return false;
+      return read_polyline(geometry, mesh);
   }
+}
+
+/// The name of the element in <geometry>, for what cannot be shown; empty: there is none.
+std::string shape_name(const sdf::Geometry& geometry) {
+  const sdf::ElementPtr element = geometry.Element();
+  const sdf::ElementPtr shape = element ? element->GetFirstElement() : nullptr;
+  return shape && shape->GetName() != "empty" ? shape->GetName() : std::string();
 }
 
 }  // namespace
@@ -121,13 +148,17 @@ Expected<bool> read_sdf_shape(const sdf::Visual& from, const ModelPaths& paths,
                               std::vector<std::string>* notices) {
   const sdf::Geometry* const geometry = from.Geom();
   fs::path file = default_file;
-  if (from.Element() && !from.Element()->FilePath().empty()) file = from.Element()->FilePath();
+  if (from.Element() && !from.Element()->FilePath().empty() &&
+      from.Element()->FilePath() != sdf::kSdfStringSource) {
+    file = from.Element()->FilePath();
+  }
   visual->where = file.string();
-  if (from.Element() && from.Element()->LineNumber()) {
+  if (from.Element() && from.Element()->FilePath() != sdf::kSdfStringSource &&
+      from.Element()->LineNumber()) {
     visual->where += ":" + std::to_string(*from.Element()->LineNumber());
   }
   visual->see_through = from.Transparency() >= kLeastUnseen;
-  if (geometry == nullptr || geometry->Type() == sdf::GeometryType::EMPTY) return false;
+  if (geometry == nullptr) return false;
   read_material(from, paths, file.parent_path(), visual, notices);
   if (geometry->Type() == sdf::GeometryType::MESH) {
     auto ok = read_mesh(*geometry->MeshShape(), paths, file.parent_path(), visual);
@@ -135,10 +166,12 @@ Expected<bool> read_sdf_shape(const sdf::Visual& from, const ModelPaths& paths,
     return true;
   }
   if (read_primitive(*geometry, &visual->primitive)) return true;
-  notices->push_back(visual->where + ": visual '" + visual->names.visual + "' of model '" +
-                     visual->names.model +
-                     "' is left out: expected a mesh, box, sphere, ellipsoid, cylinder, capsule or "
-                     "plane");
+  const std::string shape = shape_name(*geometry);
+  if (shape.empty()) return false;
+  notices->push_back(visual->where + ": <" + shape + ">: visual '" + visual->names.visual +
+                     "' of model '" + visual->names.model +
+                     "' is left out: expected a mesh, box, sphere, ellipsoid, cylinder, capsule, "
+                     "plane or one polyline");
   return false;
 }
 

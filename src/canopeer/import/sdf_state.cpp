@@ -58,7 +58,8 @@ SdfState read_sdf_state(const sdf::World& world) {
              [&](const sdf::ElementPtr& name) { state.deleted.insert(name->Get<std::string>()); });
   });
   for_each(block, "insertions", [&](const sdf::ElementPtr& insertions) {
-    for_each(insertions, "model", [&](const sdf::ElementPtr&) { ++state.insertions; });
+    for_each(insertions, "model",
+             [&](const sdf::ElementPtr& model) { state.insertions += model->ToString(""); });
   });
   return state;
 }

@@ -25,7 +25,7 @@ struct SdfState {
   std::map<std::string, Entry> models;  ///< by full name, "row::plant_3"
   std::map<std::string, Entry> links;   ///< by full name, "row::plant_3::link"
   std::set<std::string> deleted;        ///< models that were taken out
-  int insertions = 0;                   ///< models that were put in; not read
+  std::string insertions;               ///< the models that were put in, as SDF; empty: none
 
   [[nodiscard]] const Entry* model(const std::string& name) const;
   [[nodiscard]] const Entry* link(const std::string& name) const;

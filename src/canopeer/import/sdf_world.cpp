@@ -14,6 +14,7 @@
 #include "canopeer/import/sdf_convert.h"
 #include "canopeer/import/sdf_shape.h"
 #include "canopeer/import/sdf_state.h"
+#include "canopeer/import/sdf_syntax.h"
 #include "canopeer/import/shape_mesh.h"
 
 namespace canopeer {
@@ -94,7 +95,20 @@ std::string one_line(std::string text) {
   return text;
 }
 
+/// Of an included file that is broken the library says only that it cannot be read.
+std::optional<std::string> syntax_error(const sdf::Error& error) {
+  for (const std::string start :
+       {"Unable to read file:", "Unable to read file: [", "Unable to read file["}) {
+    if (!error.Message().starts_with(start)) continue;
+    const std::string rest = error.Message().substr(start.size());
+    const auto sound = check_sdf_syntax(rest.substr(0, rest.find(']')));
+    if (!sound) return sound.error().message;
+  }
+  return std::nullopt;
+}
+
 std::string described(const sdf::Error& error, const fs::path& world) {
+  if (const auto syntax = syntax_error(error)) return *syntax;
   std::string text = error.FilePath().value_or(world.string());
   if (error.LineNumber()) text += ":" + std::to_string(*error.LineNumber());
   text += ": ";
@@ -102,6 +116,10 @@ std::string described(const sdf::Error& error, const fs::path& world) {
   text += one_line(error.Message());
   if (error.Code() == sdf::ErrorCode::URI_LOOKUP) {
     text += "; expected a folder with model.config under a --model-path, or beside the file";
+  }
+  if (error.Code() == sdf::ErrorCode::ELEMENT_INVALID &&
+      error.Message().find("<pose>") != std::string::npos) {
+    text += "; expected six numbers: x y z roll pitch yaw";
   }
   return text;
 }
@@ -121,6 +139,7 @@ class WorldReader {
   Expected<Pose> resolve(const sdf::SemanticPose& pose, const std::string& what) const;
   void add_ground();
   Expected<void> check_include(const sdf::Model& model) const;
+  Expected<void> add_insertions(const sdf::ParserConfig& config);
 
   fs::path path_;
   const ModelPaths& paths_;
@@ -237,6 +256,25 @@ Expected<void> WorldReader::add_model(const sdf::Model& model, const std::string
   return {};
 }
 
+/// Models that were put into a running world stand in its <state>, whole. Frames are resolved in
+/// worlds only, so they get one of their own; the library has brought them to its own version.
+Expected<void> WorldReader::add_insertions(const sdf::ParserConfig& config) {
+  if (state_.insertions.empty()) return {};
+  sdf::Root root;
+  const sdf::Errors errors =
+      root.LoadSdfString("<sdf version='" + std::string(SDF_VERSION) +
+                             "'><world name='insertions'>" + state_.insertions + "</world></sdf>",
+                         config);
+  if (auto ok = judge(errors); !ok) return fail_in("<state><insertions>", ok.error());
+  if (root.WorldCount() == 0) return {};
+  const sdf::World& world = *root.WorldByIndex(0);
+  for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
+    auto ok = add_model(*world.ModelByIndex(i), "", Pose::Identity(), Vec3::Ones());
+    if (!ok) return ok;
+  }
+  return {};
+}
+
 Expected<SdfWorld> WorldReader::read() {
   sdf::Console::Instance()->SetQuiet(true);
   IncludeFinder finder(paths_, path_.parent_path());
@@ -265,15 +303,11 @@ Expected<SdfWorld> WorldReader::read() {
   const sdf::World& world = *root.WorldByIndex(0);
   if (!world.Name().empty()) world_.name = world.Name();
   state_ = read_sdf_state(world);
-  if (state_.insertions > 0) {
-    world_.notices.push_back(path_.string() + ": " + std::to_string(state_.insertions) +
-                             " models under <state><insertions> are left out; save the world anew "
-                             "to have them among its models");
-  }
   for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
     auto ok = add_model(*world.ModelByIndex(i), "", Pose::Identity(), Vec3::Ones());
     if (!ok) return tl::unexpected(ok.error());
   }
+  if (auto ok = add_insertions(config); !ok) return tl::unexpected(ok.error());
   return std::move(world_);
 }
 
@@ -281,7 +315,11 @@ Expected<SdfWorld> WorldReader::read() {
 
 Expected<SdfWorld> read_sdf_world(const fs::path& path, const ModelPaths& paths) {
   std::error_code code;
+  if (fs::is_directory(path, code)) {
+    return fail(path.string() + ": is a folder; expected a .world or .sdf file, or a mesh");
+  }
   if (!fs::is_regular_file(path, code)) return fail(path.string() + ": no such file");
+  if (auto ok = check_sdf_syntax(path); !ok) return tl::unexpected(ok.error());
   try {
     return WorldReader(path, paths).read();
   } catch (const std::exception& error) {

@@ -1,6 +1,8 @@
 #include "canopeer/import/world_import.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <map>
 #include <set>
 
@@ -14,6 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kNamesShown = 12;
+constexpr double kFarthest_m = 1e5;      // beyond it floats have no centimetres left
+constexpr double kLongestFruit_m = 0.6;  // no fruit in a glasshouse is
 
 /// Reads each mesh file once; its notices are passed on once.
 class MeshStore {
@@ -77,7 +81,7 @@ void apply_material(const SdfVisual& visual, TextureStore& textures, MeshPiece* 
     if (!piece->names.material.empty()) piece->names.textures.push_back(visual.material.name);
     if (piece->names.material.empty()) piece->names.material = visual.material.name;
   }
-  piece->see_through = visual.see_through;
+  piece->see_through = piece->see_through || visual.see_through;
   piece->names.visual = visual.names.visual;
   piece->names.link = visual.names.link;
   piece->names.model = visual.names.model;
@@ -113,6 +117,12 @@ Expected<std::vector<MeshPiece>> pieces_of(const SdfVisual& visual, MeshStore& m
 Expected<std::vector<MeshPiece>> sdf_pieces(const WorldImportOptions& options, std::string* name,
                                             std::vector<std::string>* notices,
                                             const ImportProgressCallback& progress) {
+  for (const fs::path& folder : options.model_paths) {
+    std::error_code code;
+    if (!fs::is_directory(folder, code)) {
+      return fail("model path " + folder.string() + ": no such folder");
+    }
+  }
   auto world = read_sdf_world(options.file, ModelPaths(options.model_paths));
   if (!world) return tl::unexpected(world.error());
   *name = world->name;
@@ -169,6 +179,37 @@ std::string names_in(const std::vector<PartsRow>& parts) {
   return text;
 }
 
+/// A coordinate that no world has comes from a unit, a scale or a pose that is wrong.
+Expected<void> check_size(const std::vector<MeshPiece>& pieces) {
+  for (const MeshPiece& piece : pieces) {
+    const Box box = piece.mesh.bounds();
+    const double reach =
+        box.isEmpty() ? 0.0 : std::max(-box.min().minCoeff(), box.max().maxCoeff());
+    if (reach <= kFarthest_m) continue;
+    const PartNames& names = piece.names;
+    return fail("model '" + names.model + "'" +
+                (names.visual.empty() ? "" : ", visual '" + names.visual + "'") +
+                (names.file.empty() ? "" : ", mesh " + names.file) + ": reaches " +
+                std::to_string(static_cast<long long>(std::min(reach / 1000.0, 1e15))) +
+                " km from the origin; expected metres: look at its unit, scale and pose");
+  }
+  return {};
+}
+
+/// A mesh taken as metres that is in millimetres has fruits of seventy metres.
+void note_odd_sizes(ImportedScene* result) {
+  const FruitTruth* longest = nullptr;
+  for (const FruitTruth& fruit : result->scene.fruits) {
+    if (longest == nullptr || fruit.length_m > longest->length_m) longest = &fruit;
+  }
+  if (longest == nullptr || longest->length_m <= kLongestFruit_m) return;
+  std::array<char, 32> length{};
+  std::snprintf(length.data(), length.size(), "%.1f", longest->length_m);
+  result->notices.push_back("a fruit of model '" + longest->model + "' is " + length.data() +
+                            " m long: either its mesh's unit or scale is wrong, or a pattern takes "
+                            "more than fruits");
+}
+
 void note_what_is_missing(const NamePatternOptions& patterns, ImportedScene* result) {
   if (patterns.fruit.empty()) {
     result->notices.push_back("no pattern for fruits was given, so there are none; names are: " +
@@ -194,10 +235,16 @@ Expected<ImportedScene> import_world(const WorldImportOptions& options,
                                            : sdf_pieces(options, &name, &notices, progress);
   if (!pieces) return tl::unexpected(pieces.error());
   if (pieces->empty()) return fail(options.file.string() + ": shows nothing: expected a visual");
-  ImportedScene result =
-      assemble_scene(name, classify(std::move(*pieces), *patterns), options.fruits);
+  if (auto ok = check_size(*pieces); !ok) return fail_in(options.file.string(), ok.error());
+  auto classified = classify(std::move(*pieces), *patterns);
+  if (classified.empty()) {
+    return fail(options.file.string() + ": nothing is left: the pattern for what to skip, '" +
+                options.patterns.skip + "', matches all");
+  }
+  ImportedScene result = assemble_scene(name, std::move(classified), options.fruits);
   result.notices.insert(result.notices.begin(), notices.begin(), notices.end());
   note_what_is_missing(options.patterns, &result);
+  note_odd_sizes(&result);
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "canopeer/base/check.h"
 #include "canopeer/render/renderer.h"
@@ -12,15 +13,34 @@ namespace {
 
 constexpr int kSamples = 2;  // a side and pixel
 constexpr double kFovY = 26.0 * std::numbers::pi / 180.0;
-constexpr double kFill = 1.08;  // of the picture by the plants' box; its corners are empty
+constexpr double kFill = 0.94;  // of the picture by the plants
+constexpr std::size_t kEnoughPoints = 20000;
 
-/// How far the corners of a box reach in the picture: −1 … 1 is inside it.
-Eigen::AlignedBox2d projected(const Box& box, const Pose& T_world_camera,
+/// Points all over the plants, or over everything when there are none: far fewer than there are.
+std::vector<Vec3> points_on(const Scene& scene) {
+  const bool any_plant = std::any_of(scene.parts.begin(), scene.parts.end(),
+                                     [](const ScenePart& part) { return part.plant >= 0; });
+  std::size_t total = 0;
+  for (const ScenePart& part : scene.parts) total += part.mesh.vertices.size();
+  const std::size_t step = 1 + total / kEnoughPoints;
+  std::vector<Vec3> points;
+  std::size_t at = 0;
+  for (const ScenePart& part : scene.parts) {
+    if (any_plant && part.plant < 0) continue;
+    for (const auto& v : part.mesh.vertices) {
+      if (at++ % step == 0) points.push_back(v.cast<double>());
+    }
+  }
+  return points;
+}
+
+/// How far the points reach in the picture: −1 … 1 is inside it.
+Eigen::AlignedBox2d projected(const std::vector<Vec3>& points, const Pose& T_world_camera,
                               const CameraIntrinsics& camera) {
   const Pose T_camera_world = T_world_camera.inverse(Eigen::Isometry);
   Eigen::AlignedBox2d reach;
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 p = T_camera_world * box.corner(static_cast<Box::CornerType>(i));
+  for (const Vec3& point : points) {
+    const Vec3 p = T_camera_world * point;
     const double depth = std::max(p.z(), 1e-3);
     reach.extend(Eigen::Vector2d(p.x() / depth * 2.0 * camera.fx / camera.width,
                                  p.y() / depth * 2.0 * camera.fy / camera.height));
@@ -29,14 +49,15 @@ Eigen::AlignedBox2d projected(const Box& box, const Pose& T_world_camera,
 }
 
 /// Sees both rows slantwise from above one end of the aisle. Aim and distance are corrected in turn
-/// until the plants' box is in the middle and just fills the picture.
-Pose choose_camera(const Box& plants, const CameraIntrinsics& camera) {
+/// until the plants are in the middle and just fill the picture.
+Pose choose_camera(const Box& plants, const std::vector<Vec3>& points,
+                   const CameraIntrinsics& camera) {
   const Vec3 away = Vec3(0.62, -0.68, 0.40).normalized();
   Vec3 aim = plants.center();
   double distance = plants.diagonal().norm();
   for (int i = 0; i < 40; ++i) {
     const Pose pose = look_at(aim + distance * away, aim);
-    const Eigen::AlignedBox2d reach = projected(plants, pose, camera);
+    const Eigen::AlignedBox2d reach = projected(points, pose, camera);
     const Eigen::Vector2d off = reach.center();
     aim += 0.5 * distance *
            (off.x() * 0.5 * camera.width / camera.fx * pose.linear().col(0) +
@@ -91,7 +112,7 @@ ColorImage render_overview(const Scene& scene, int width, int height) {
   CANOPEER_CHECK(!plants.isEmpty(), "an overview needs something to show");
   const double fov_x = 2.0 * std::atan(std::tan(0.5 * kFovY) * static_cast<double>(width) / height);
   const auto camera = CameraIntrinsics::from_fov(width * kSamples, height * kSamples, fov_x);
-  const Pose T_world_camera = choose_camera(plants, camera);
+  const Pose T_world_camera = choose_camera(plants, points_on(scene), camera);
   RenderOptions options;
   options.shadows = true;
   options.color_noise = 0.0;
