@@ -54,6 +54,7 @@ constexpr HeaderOrigin kOrigins[] = {
     {"sys/", ""},
     {"unistd.h", ""},
     {"fcntl.h", ""},
+    {"poll.h", ""},
     {"dlfcn.h", ""},
 };
 

@@ -1,5 +1,7 @@
 #include "canopeer/import/sdf_world.h"
 
+#include <console_bridge/console.h>
+
 #include <algorithm>
 #include <functional>
 #include <mutex>
@@ -49,15 +51,21 @@ class IncludeFinder {
   std::vector<fs::path> folders_;
 };
 
-/// Has the library ask us wherever it does not know better, as long as this lives. One at a time.
+/// Has the library ask us wherever it does not know better, and keep quiet, as long as this lives.
+/// One at a time.
 class GlobalFinder {
  public:
   explicit GlobalFinder(std::function<std::string(const std::string&)> find) : lock_(mutex()) {
     sdf::ParserConfig::GlobalConfig().SetFindCallback(std::move(find));
+    // What is no SDF it tries as URDF, whose parser complains to whoever listens.
+    console_bridge::noOutputHandler();
   }
   GlobalFinder(const GlobalFinder&) = delete;
   GlobalFinder& operator=(const GlobalFinder&) = delete;
-  ~GlobalFinder() { sdf::ParserConfig::GlobalConfig().SetFindCallback({}); }
+  ~GlobalFinder() {
+    console_bridge::restorePreviousOutputHandler();
+    sdf::ParserConfig::GlobalConfig().SetFindCallback({});
+  }
 
  private:
   static std::mutex& mutex() {
