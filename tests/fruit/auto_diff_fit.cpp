@@ -74,7 +74,7 @@ struct Solution {
 };
 
 Solution solve(std::span<const SurfacePoint> surface, const FitOptions& options, const Vec3& vote,
-               const FitParameters& start, const Eigen::Matrix3d& reference) {
+               const FitParameters& start, const Eigen::Matrix3d& reference, int iterations) {
   Solution solution{start};
   double* const p = solution.parameters.data();
   ceres::Problem problem;
@@ -94,7 +94,8 @@ Solution solve(std::span<const SurfacePoint> surface, const FitOptions& options,
   }
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-  solver.max_num_iterations = options.max_iterations;
+  solver.max_num_iterations = iterations;
+  solver.max_num_line_search_step_size_iterations = 0;
   solver.function_tolerance = options.function_tolerance;
   solver.logging_type = ceres::SILENT;
   solver.num_threads = 1;
@@ -122,12 +123,15 @@ AutoDiffFit auto_diff_fit(std::span<const SurfacePoint> surface, const FitOption
   Eigen::Matrix3d reference = Eigen::Matrix3d::Identity();
   for (const Superellipsoid& start : fit_starts(fine, options)) {
     const Eigen::Matrix3d own = start.T_world_body.linear();
-    const Solution solution = solve(coarse, options, vote, parameters_of(start), own);
+    const Solution solution = solve(coarse, options, vote, parameters_of(start), own,
+                                    fine.size() > coarse.size() ? options.coarse_iterations
+                                                                : options.max_iterations);
     if (solution.cost >= best.cost) continue;
     best = solution;
     reference = own;
   }
-  if (fine.size() > coarse.size()) best = solve(fine, options, vote, best.parameters, reference);
+  if (fine.size() > coarse.size()) best = solve(fine, options, vote, best.parameters, reference,
+                                               options.max_iterations);
   return {body_of(best.parameters, reference), best.cost};
 }
 

@@ -32,7 +32,7 @@ struct FruitMapOptions {
   double id_distance_m = 0.05;  ///< a fruit that shares no surface with what it was keeps its id so far
 
   // Shape and report.
-  int fit_points = 300;   ///< of a fruit's surface, evenly, for its shape
+  int fit_points = 160;   ///< of a fruit's surface, evenly, for its shape
   ConfidenceModel confidence;
   double min_confidence = 0.5;   ///< less likely fruits are not reported
   std::vector<PlantRow> rows;    ///< for places in rows; none: no places

@@ -130,17 +130,7 @@ std::vector<SurfaceVertex> FruitSurface::extract(const FruitTsdf::Block& block) 
 }
 
 std::vector<int> FruitSurface::update() {
-  // A cell has corners in the blocks above it, so the blocks below a changed one change too.
-  std::vector<int> remade;
-  for (const int number : tsdf_.take_changed()) {
-    const VoxelIndex index = tsdf_.blocks()[static_cast<std::size_t>(number)]->index;
-    for (int k = 0; k < 8; ++k) {
-      const int below = tsdf_.block_at(index - VoxelIndex(k & 1, (k >> 1) & 1, k >> 2));
-      if (below >= 0) remade.push_back(below);
-    }
-  }
-  std::sort(remade.begin(), remade.end());
-  remade.erase(std::unique(remade.begin(), remade.end()), remade.end());
+  const std::vector<int> remade = tsdf_.take_changed();
   vertices_.resize(tsdf_.blocks().size());
   for (const int number : remade) {
     vertices_[static_cast<std::size_t>(number)] =

@@ -20,6 +20,11 @@ bool at_depth_edge(const DepthImage& depth, int u, int v, float max_step) {
   return step(-1, 0) || step(1, 0) || step(0, -1) || step(0, 1);
 }
 
+/// Blocks whose cells have a voxel for a corner, by whether it is the first along x (1), y (2), z
+/// (4): all that only go down along those axes.
+constexpr std::uint8_t kBelow[8] = {0b00000001, 0b00000011, 0b00000101, 0b00001111,
+                                    0b00010001, 0b00110011, 0b01010101, 0b11111111};
+
 /// Depth errors grow with the square of the distance, so a pixel counts as much as it is sure.
 float weight_at(float depth_m) {
   constexpr float kUnitDepth = 0.5F;
@@ -163,7 +168,9 @@ void FruitTsdf::fuse_block(Block& block, const RgbdFrame& frame,
         voxel.distance_m =
             (voxel.weight * before + weight * std::min(distance, truncation)) / sum;
         if (std::abs(voxel.distance_m) < 2.0F * near_surface || std::abs(before) < 2.0F * near_surface) {
-          block.changed |= voxel.weight == 0.0F || std::abs(voxel.distance_m - before) > changed;
+          const bool moved =
+              voxel.weight == 0.0F || std::abs(voxel.distance_m - before) > changed;
+          if (moved) block.changed |= kBelow[(x == 0) + 2 * (y == 0) + 4 * (z == 0)];
         }
         voxel.weight = std::min(sum, max_weight);
         if (std::abs(distance) > near_surface) continue;
@@ -183,11 +190,16 @@ void FruitTsdf::fuse_block(Block& block, const RgbdFrame& frame,
 
 std::vector<int> FruitTsdf::take_changed() {
   std::vector<int> numbers;
-  for (std::size_t i = 0; i < blocks_.size(); ++i) {
-    if (!blocks_[i]->changed) continue;
-    blocks_[i]->changed = false;
-    numbers.push_back(static_cast<int>(i));
+  for (const auto& block : blocks_) {
+    for (int k = 0; k < 8; ++k) {
+      if ((block->changed >> k & 1) == 0) continue;
+      const int number = block_at(block->index - VoxelIndex(k & 1, (k >> 1) & 1, k >> 2));
+      if (number >= 0) numbers.push_back(number);
+    }
+    block->changed = 0;
   }
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   return numbers;
 }
 

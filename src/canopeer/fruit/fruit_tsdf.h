@@ -46,7 +46,9 @@ class FruitTsdf {
   struct Block {
     VoxelIndex index = VoxelIndex::Zero();  ///< in blocks
     std::array<TsdfVoxel, kVoxels> voxels;
-    bool changed = false;       ///< its surface, since changed_blocks() was taken
+    /// Which blocks' surface has changed since take_changed(): bit k is the block below by 1 along
+    /// x (k & 1), y (k & 2), z (k & 4), whose upper cells have corners here; bit 0 is this one.
+    std::uint8_t changed = 0;
     int fruit_frame = -1;       ///< number of the last frame with a fruit pixel in it
   };
 
@@ -56,7 +58,7 @@ class FruitTsdf {
   /// the order first seen.
   void add(const RgbdFrame& frame, const Image<std::uint8_t>& classes);
 
-  /// Numbers of the blocks whose surface has changed, ascending; forgets the changes.
+  /// Numbers of the blocks whose surface has changed, ascending, each once; forgets the changes.
   std::vector<int> take_changed();
 
   /// −1: there is none.

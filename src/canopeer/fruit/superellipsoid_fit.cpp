@@ -40,6 +40,8 @@ ceres::Solver::Options solver_options(const FitOptions& options) {
   solver.function_tolerance = options.function_tolerance;
   solver.logging_type = ceres::SILENT;
   solver.num_threads = 1;
+  // Steps are clipped to the bounds; a line search along each clipped step costs more than it helps.
+  solver.max_num_line_search_step_size_iterations = 0;
   return solver;
 }
 
@@ -128,17 +130,24 @@ SuperellipsoidFit fit_superellipsoid(std::span<const SurfacePoint> surface,
   const std::vector<Superellipsoid> starts =
       before ? std::vector{*before} : fit_starts(fine, options);
   const ceres::Solver::Options solver = solver_options(options);
+  ceres::Solver::Options trial = solver;
+  if (fine.size() > coarse.size()) trial.max_num_iterations = options.coarse_iterations;
   const Superellipsoid* from = nullptr;
   Solution best;
+  if (starts.size() == 1) {
+    from = starts.data();
+    best.parameters = parameters_of(*from);
+  }
   for (const Superellipsoid& start : starts) {
+    if (starts.size() == 1) break;
     const SuperellipsoidCost cost(coarse, options.prior, vote, start.T_world_body.linear());
-    const Solution solution = solve(cost, parameters_of(start), solver);
+    const Solution solution = solve(cost, parameters_of(start), trial);
     if (from != nullptr && solution.cost >= best.cost) continue;
     best = solution;
     from = &start;
   }
   const SuperellipsoidCost cost(fine, options.prior, vote, from->T_world_body.linear());
-  if (fine.size() > coarse.size()) best = solve(cost, best.parameters, solver);
+  if (fine.size() > coarse.size() || starts.size() == 1) best = solve(cost, best.parameters, solver);
   SuperellipsoidFit fit;
   fit.body = body_of(best.parameters, from->T_world_body.linear());
   fit.rms_m = clipped_rms(fine, fit.body);

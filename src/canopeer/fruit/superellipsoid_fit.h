@@ -11,6 +11,7 @@ struct FitOptions {
   ShapePrior prior;
   /// Starts are tried on so many of the points; the best goes on with all that `max_points` allows.
   int coarse_points = 96;
+  int coarse_iterations = 6;  ///< each start gets so many to show what it is worth
   int max_points = 1000;  ///< more are thinned evenly
   int max_iterations = 30;
   double function_tolerance = 1e-4;  ///< relative decrease of the cost at which a fit has arrived
