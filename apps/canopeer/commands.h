@@ -51,6 +51,14 @@ struct MapFuseArguments {
   bool quiet = false;
 };
 
+struct FruitFitArguments {
+  std::string cloud;
+  std::string out;
+  std::string unit = "m";
+  bool any_pose = false;
+  double min_confidence = 0.5;
+};
+
 struct ImportArguments {
   std::string world;
   std::vector<std::string> model_paths;
@@ -66,6 +74,7 @@ void report(const std::string& directory);
 void scene_render(const SceneArguments& arguments);
 void scene_inspect(const SceneArguments& arguments);
 void scene_import(const ImportArguments& arguments);
+void fruit_fit(const FruitFitArguments& arguments);
 void map_info(const std::string& file);
 void map_convert(const std::string& in, const std::string& out);
 void map_fuse(const MapFuseArguments& arguments);

@@ -83,6 +83,24 @@ void add_scene(CLI::App& app, SceneArguments& arguments, ImportArguments& import
   add_import(*scene, import_arguments);
 }
 
+void add_fruit(CLI::App& app, FruitFitArguments& a) {
+  CLI::App* fruit = app.add_subcommand("fruit", "Fruits from point clouds of your own");
+  fruit->require_subcommand(1);
+  CLI::App* fit = fruit->add_subcommand(
+      "fit", "Find the fruits in a cloud of fruit surface, fit their shapes, write the fruit map");
+  fit->add_option("cloud", a.cloud, "Points: .ply, .pcd or .csv, normals and colours optional")
+      ->required();
+  fit->add_option("--out", a.out, "Directory for the results")->required();
+  fit->add_option("--unit", a.unit, "What the coordinates are in")
+      ->check(CLI::IsMember({"m", "cm", "mm"}))
+      ->capture_default_str();
+  fit->add_flag("--any-pose", a.any_pose, "z is not up, or the fruits do not hang");
+  fit->add_option("--min-confidence", a.min_confidence, "Less likely fruits are left out")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  fit->callback([&a] { fruit_fit(a); });
+}
+
 struct MapArguments {
   std::string in;
   std::string out;
@@ -156,6 +174,8 @@ int parse_and_run(int argc, char** argv) {
   add_run(app, run_arguments);
   add_report(app, report_directory);
   add_scene(app, scene_arguments, import_arguments);
+  FruitFitArguments fruit_arguments;
+  add_fruit(app, fruit_arguments);
   MapArguments map_arguments;
   add_map(app, map_arguments);
   app.add_subcommand("version", "Print the version")->callback([] {

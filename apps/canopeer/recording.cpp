@@ -66,7 +66,7 @@ class TumRecording final : public Recording {
       return fail(file.string() + ": the colour image is not as large as its depth image");
     }
     segmented.frame.color = *std::move(color);
-    segmented.roi = ColorDetector().detect(segmented.frame).fruit;
+    segmented.roi = ColorDetector().detect(segmented.frame)->fruit;
     return {};
   }
 

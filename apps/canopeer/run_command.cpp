@@ -92,6 +92,7 @@ void run(const RunArguments& arguments) {
   const RobotModel robot = value_or_stop(load_robot(file.robot), kBadInput);
   const ArmIk ik = value_or_stop(ArmIk::make(robot), kBadInput);
   check_sides(file, robot);
+  value_or_stop(make_detector(file.mission.detector), kBadInput);
   std::optional<tbb::global_control> threads;
   if (arguments.threads > 0) {
     threads.emplace(tbb::global_control::max_allowed_parallelism,

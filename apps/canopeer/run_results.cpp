@@ -4,7 +4,10 @@
 
 #include "canopeer/base/atomic_file.h"
 #include "canopeer/eval/metrics.h"
+#include "canopeer/eval/surface_coverage.h"
 #include "canopeer/fruit/fruits_csv.h"
+#include "canopeer/fruit/fruits_json.h"
+#include "canopeer/fruit/surface_files.h"
 #include "canopeer/map/octomap_file.h"
 #include "canopeer/record/timeline_csv.h"
 #include "canopeer/render/overview.h"
@@ -44,6 +47,14 @@ Summary summarize(const RunHeader& header, const Mission& mission, const RunMetr
   s.roi_surface_coverage = metrics.roi_surface_coverage;
   s.volume_error_mean = metrics.volume_error_mean;
   s.centre_error_mean_m = metrics.centre_error_mean_m;
+  s.fruits_half_seen = metrics.fruits_half_seen;
+  s.volume_error_half_seen = metrics.volume_error_half_seen;
+  s.centre_error_half_seen_m = metrics.centre_error_half_seen_m;
+  if (metrics.pixels) {
+    s.pixel_precision = metrics.pixels->precision();
+    s.pixel_recall = metrics.pixels->recall();
+    s.pixel_iou = metrics.pixels->iou();
+  }
   s.joint_path_length_rad = metrics.joint_path_length_rad;
   s.motion_time_s = metrics.motion_time_s;
   s.planning_time_s = metrics.planning_time_s;
@@ -55,7 +66,11 @@ Summary summarize(const RunHeader& header, const Mission& mission, const RunMetr
 Expected<void> write_data(const fs::path& out, const Mission& mission, const Scene& scene) {
   if (auto ok = write_file(out / "fruits.csv", fruits_csv(mission.fruits().fruits())); !ok)
     return ok;
-  if (auto ok = write_ply(out / "fruits.ply", mission.fruits().cloud()); !ok) return ok;
+  if (auto ok = write_file(out / "fruits.json", fruits_json(mission.fruits().fruits())); !ok)
+    return ok;
+  const SurfaceMesh surface = mission.fruits().surface();
+  if (auto ok = write_surface_ply(out / "fruits.ply", surface); !ok) return ok;
+  if (auto ok = write_surface_glb(out / "fruits.glb", surface); !ok) return ok;
   if (auto ok = write_ot(mission.map(), out / "map.ot"); !ok) return ok;
   if (auto ok = write_roi_ot(mission.map(), out / "map_roi.ot"); !ok) return ok;
   if (auto ok = write_file(out / "timeline.csv", timeline_csv(mission.record())); !ok) return ok;
@@ -71,7 +86,8 @@ Expected<Summary> write_results(const fs::path& out, const RunHeader& header,
                                 const Mission& mission, const Scene& scene, double wall_time_s) {
   if (auto ok = write_data(out, mission, scene); !ok) return tl::unexpected(ok.error());
   const RunMetrics metrics =
-      compute_metrics(mission.record(), mission.fruits().fruits(), scene.fruits);
+      compute_metrics(mission.record(), mission.fruits().fruits(), scene.fruits,
+                      fruit_coverage(scene, mission.fruits().cloud()));
   Summary summary = summarize(header, mission, metrics);
   summary.wall_time_s = wall_time_s;
   if (auto ok = write_summary(out / "summary.json", summary); !ok)

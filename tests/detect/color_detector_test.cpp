@@ -31,7 +31,7 @@ std::vector<Body> plant() {
 PixelScore score_of(const std::vector<Body>& bodies) {
   const View view = look(bodies, kCamera, kRow);
   PixelCounts counts;
-  counts.add(ColorDetector().detect(view.frame).fruit, view.fruit);
+  counts.add(ColorDetector().detect(view.frame)->fruit, view.fruit);
   return counts.score();
 }
 
@@ -46,7 +46,7 @@ TEST(ColorDetector, FindsNothingOnGreenFruitsLeavesAndDryLeaves) {
   std::erase_if(bodies, [](const Body& body) { return body.fruit; });
   const View view = look(bodies, kCamera, kRow);
   PixelCounts counts;
-  counts.add(ColorDetector().detect(view.frame).fruit, view.fruit);
+  counts.add(ColorDetector().detect(view.frame)->fruit, view.fruit);
   EXPECT_EQ(counts.false_positives, 0);
 }
 
@@ -56,7 +56,7 @@ TEST(ColorDetector, DropsPixelsWithoutDepthAndSpecks) {
   for (int v = 0; v < 240; ++v) {
     for (int u = 0; u < 160; ++u) view.frame.depth.at(u, v) = 0.0F;
   }
-  const Detection detection = ColorDetector().detect(view.frame);
+  const Detection detection = *ColorDetector().detect(view.frame);
   for (int v = 0; v < 240; ++v) {
     for (int u = 0; u < 160; ++u) ASSERT_EQ(detection.fruit.at(u, v), 0);
   }
@@ -64,7 +64,7 @@ TEST(ColorDetector, DropsPixelsWithoutDepthAndSpecks) {
 
 TEST(ColorDetector, IsConfidentExactlyWhereItFindsFruit) {
   const View view = look(plant(), kCamera, kRow);
-  const Detection detection = ColorDetector().detect(view.frame);
+  const Detection detection = *ColorDetector().detect(view.frame);
   for (std::size_t i = 0; i < detection.fruit.pixels().size(); ++i) {
     const float confidence = detection.confidence.pixels()[i];
     ASSERT_EQ(confidence > 0.0F, detection.fruit.pixels()[i] != 0);
@@ -74,7 +74,7 @@ TEST(ColorDetector, IsConfidentExactlyWhereItFindsFruit) {
 
 TEST(ColorDetector, RefusesAnEmptyHueWindow) {
   ColorDetectorOptions options;
-  options.hue_low_deg = 40.0;
+  options.windows[0].hue_low_deg = 40.0;
   EXPECT_FALSE(options.validate().has_value());
   EXPECT_TRUE(ColorDetectorOptions{}.validate().has_value());
 }

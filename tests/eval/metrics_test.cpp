@@ -77,6 +77,34 @@ TEST(Metrics, OfAHandMadeRunAreAsWorkedOutByHand) {
   EXPECT_FALSE(m.roi_surface_coverage.has_value());
 }
 
+TEST(Metrics, OfWhatWasSeenWeighFruitsByTheirSurfaceAndClipShares) {
+  std::vector<FruitTruth> truth = four_fruits();
+  for (int i = 0; i < 5; ++i) truth[i].surface_cm2 = i == 0 ? 300.0 : 100.0;
+  const std::vector<FruitEstimate> fruits = {estimate_at({0, 0, 0.53}, 110.0),
+                                             estimate_at({1, 0, 0.5}, 150.0)};
+  // More than all cannot be seen; the green fruit's share does not count.
+  const std::vector<double> coverage = {1.2, 0.4, 0.0, 0.5, 1.0};
+  const RunMetrics m = compute_metrics(RunRecord{}, fruits, truth, coverage);
+  EXPECT_NEAR(*m.roi_surface_coverage, (300.0 + 40.0 + 0.0 + 50.0) / 600.0, 1e-12);
+  EXPECT_EQ(m.fruits_half_seen, 1);
+  // A distance, not its square: the published evaluator mixes them up.
+  EXPECT_NEAR(*m.centre_error_half_seen_m, 0.03, 1e-12);
+  EXPECT_NEAR(*m.volume_error_half_seen, 0.1, 1e-12);
+}
+
+TEST(Metrics, OfPixelsAreOverAllFramesThatHadLabels) {
+  RunRecord record = run();
+  EXPECT_FALSE(compute_metrics(record, {}, four_fruits()).pixels.has_value());
+  record.views[0].pixels = PixelHits{80, 20, 0};
+  record.views[2].pixels = PixelHits{10, 0, 90};
+  const auto pixels = compute_metrics(record, {}, four_fruits()).pixels;
+  ASSERT_TRUE(pixels.has_value());
+  EXPECT_NEAR(pixels->precision(), 90.0 / 110.0, 1e-12);
+  EXPECT_NEAR(pixels->recall(), 90.0 / 180.0, 1e-12);
+  EXPECT_NEAR(pixels->iou(), 90.0 / 200.0, 1e-12);
+  EXPECT_EQ(PixelHits{}.iou(), 1.0);
+}
+
 TEST(Metrics, OfARunThatFoundNothingHaveNoNaN) {
   for (const auto& truth : {std::vector<FruitTruth>{}, four_fruits()}) {
     const RunMetrics m = compute_metrics(RunRecord{}, {}, truth);

@@ -15,6 +15,7 @@ TEST(TimelineCsv, HasOneRowPerViewAndLeavesAnUnknownGainEmpty) {
   record.views[1].target_kind = "roi";
   record.views[1].predicted_gain = 120.0;
   record.views[1].fruits.resize(3);
+  record.views[1].pixels = PixelHits{3, 1, 0};
   record.views[1].T_world_camera.translation() = Vec3(0.1, -1.5, 1.0);
   const Expected<CsvTable> table = CsvTable::parse(timeline_csv(record), "timeline.csv");
   ASSERT_TRUE(table.has_value()) << table.error().message;
@@ -25,6 +26,8 @@ TEST(TimelineCsv, HasOneRowPerViewAndLeavesAnUnknownGainEmpty) {
   EXPECT_EQ(*table->text(1, "target_kind"), "roi");
   EXPECT_EQ(*table->number(1, "predicted_gain"), 120.0);
   EXPECT_EQ(*table->number(1, "y_m"), -1.5);
+  EXPECT_EQ(*table->text(0, "pixel_iou"), "");
+  EXPECT_EQ(*table->number(1, "pixel_precision"), 0.75);
 }
 
 }  // namespace

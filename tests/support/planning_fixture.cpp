@@ -46,8 +46,8 @@ PlanningFixture::PlanningFixture(SimulationOptions options)
   checker.set_map(&perception.field());
   WorkMeter work;
   StageTimer timer;
-  home = perception.observe(must(simulation.ports().camera->capture()), frame.sampling_region_world,
-                            work, timer);
+  home = must(perception.observe(must(simulation.ports().camera->capture()),
+                                 frame.sampling_region_world, work, timer));
 }
 
 }  // namespace canopeer::test

@@ -3,6 +3,8 @@
 #include <numbers>
 
 #include "canopeer/config/cost_table_file.h"
+#include "canopeer/config/detector_section.h"
+#include "canopeer/config/fruit_section.h"
 #include "canopeer/config/imported_world.h"
 #include "canopeer/config/yaml_reader.h"
 
@@ -153,14 +155,6 @@ void read_collision(YamlMap collision, CollisionOptions& o) {
   o.self_padding_m = collision.number("self_padding_m", o.self_padding_m, {0.0, 0.5});
 }
 
-void read_detector(YamlMap detector, ColorDetectorOptions& o) {
-  o.hue_low_deg = detector.number("hue_low_deg", o.hue_low_deg, {-180.0, 360.0});
-  o.hue_high_deg = detector.number("hue_high_deg", o.hue_high_deg, {-180.0, 360.0});
-  o.min_saturation = detector.number("min_saturation", o.min_saturation, {0.0, 1.0});
-  o.min_value = detector.number("min_value", o.min_value, {0.0, 1.0});
-  if (auto ok = o.validate(); !ok) detector.complain("hue_low_deg", ok.error().message);
-}
-
 Expected<CostTable> find_cost_table(const std::string& name, const fs::path& mission_dir,
                                     const std::vector<fs::path>& dirs) {
   if (name == "free") return CostTable{};
@@ -204,7 +198,8 @@ Expected<MissionFile> load_mission(const fs::path& path, const Overrides& overri
   read_search(file->map("search"), vmp);
   read_execution(file->map("execution"), vmp);
   read_collision(file->map("collision"), mission.collision);
-  read_detector(file->map("detector"), mission.detector);
+  read_detector(file->map("detector"), path.parent_path(), mission.detector);
+  read_fruit(*file, mission.fruit);
   result.simulation.arrival_error_rad =
       file->map("simulation").number("arrival_error_rad", 0.0, {0.0, 0.2});
   result.simulation.seed = mission.seed;

@@ -25,11 +25,11 @@ cv::Mat hsv_of(const ColorImage& color) {
 int hue_byte(double degrees) { return static_cast<int>(std::lround(degrees * 256.0 / 360.0)); }
 
 /// Pixels inside the window; a hue window that starts below 0° wraps around.
-cv::Mat in_window(const cv::Mat& hsv, const ColorDetectorOptions& options, double min_saturation) {
+cv::Mat in_window(const cv::Mat& hsv, const ColorWindow& window, double min_saturation) {
   const double s = 255.0 * min_saturation;
-  const double v = 255.0 * options.min_value;
-  const int low = hue_byte(options.hue_low_deg);
-  const int high = hue_byte(options.hue_high_deg);
+  const double v = 255.0 * window.min_value;
+  const int low = hue_byte(window.hue_low_deg);
+  const int high = hue_byte(window.hue_high_deg);
   cv::Mat in;
   cv::inRange(hsv, cv::Scalar(std::max(low, 0), s, v), cv::Scalar(high, 255, 255), in);
   if (low < 0) {
@@ -37,6 +37,17 @@ cv::Mat in_window(const cv::Mat& hsv, const ColorDetectorOptions& options, doubl
     cv::inRange(hsv, cv::Scalar(256 + low, s, v), cv::Scalar(std::min(256 + high, 255), 255, 255),
                 wrapped);
     in |= wrapped;
+  }
+  return in;
+}
+
+/// Pixels inside any of the windows; `saturation_of` tells how pale each may be.
+template <typename SaturationOf>
+cv::Mat in_windows(const cv::Mat& hsv, const ColorDetectorOptions& options,
+                   const SaturationOf& saturation_of) {
+  cv::Mat in = cv::Mat::zeros(hsv.rows, hsv.cols, CV_8U);
+  for (const ColorWindow& window : options.windows) {
+    in |= in_window(hsv, window, saturation_of(window));
   }
   return in;
 }
@@ -59,16 +70,18 @@ cv::Mat fillable(const cv::Mat& hsv, const ColorDetectorOptions& options) {
   constexpr double kGlaring = 0.9 * 255.0;
   cv::Mat glaring;
   cv::inRange(hsv, cv::Scalar(0, 0, kGlaring), cv::Scalar(255, 120, 255), glaring);
-  return glaring | in_window(hsv, options, kAnySaturation);
+  return glaring | in_windows(hsv, options, [](const ColorWindow&) { return kAnySaturation; });
 }
 
 /// Surely fruit-coloured pixels, paler ones (highlights) that touch them, and holes.
 cv::Mat fruit_colored(const cv::Mat& hsv, const ColorDetectorOptions& options) {
-  cv::Mat sure = in_window(hsv, options, options.min_saturation);
+  cv::Mat sure =
+      in_windows(hsv, options, [](const ColorWindow& window) { return window.min_saturation; });
   if (options.opening_radius_px > 0) {
     cv::morphologyEx(sure, sure, cv::MORPH_OPEN, disc(options.opening_radius_px));
   }
-  const cv::Mat pale = in_window(hsv, options, options.min_saturation_at_fruit);
+  const cv::Mat pale = in_windows(
+      hsv, options, [](const ColorWindow& window) { return window.min_saturation_at_fruit; });
   cv::Mat reach;
   constexpr int kSteps = 3;
   for (int step = 0; step < kSteps; ++step) {
@@ -89,10 +102,22 @@ Mask to_mask(const cv::Mat& image) {
   return mask;
 }
 
+/// The window whose middle hue is nearest, round the circle.
+const ColorWindow& nearest_window(std::uint8_t hue, const std::vector<ColorWindow>& windows) {
+  const auto distance = [hue](const ColorWindow& w) {
+    const int middle = hue_byte(0.5 * (w.hue_low_deg + w.hue_high_deg));
+    const int apart = ((hue - middle) % 256 + 256) % 256;
+    return std::min(apart, 256 - apart);
+  };
+  return *std::min_element(
+      windows.begin(), windows.end(),
+      [&](const ColorWindow& a, const ColorWindow& b) { return distance(a) < distance(b); });
+}
+
 /// Certainty from how saturated the pixel is and how large its blob.
-float confidence_of(std::uint8_t saturation, const Blob& blob, const ColorDetectorOptions& o) {
-  const double margin = (saturation / 255.0 - o.min_saturation_at_fruit) /
-                        std::max(1e-6, 1.0 - o.min_saturation_at_fruit);
+float confidence_of(std::uint8_t saturation, const Blob& blob, const ColorWindow& window) {
+  const double margin = (saturation / 255.0 - window.min_saturation_at_fruit) /
+                        std::max(1e-6, 1.0 - window.min_saturation_at_fruit);
   const double size = blob.area_cm2 / (blob.area_cm2 + 2.0);
   return static_cast<float>(size * (0.5 + 0.5 * std::clamp(margin, 0.0, 1.0)));
 }
@@ -103,12 +128,13 @@ ColorDetector::ColorDetector(const ColorDetectorOptions& options) : options_(opt
   CANOPEER_CHECK(options.validate().has_value(), "validate options where they come from");
 }
 
-Detection ColorDetector::detect(const RgbdFrame& frame) const {
+Expected<Detection> ColorDetector::detect(const RgbdFrame& frame) const {
   const int width = frame.color.width();
   const int height = frame.color.height();
   CANOPEER_CHECK(width == frame.depth.width() && height == frame.depth.height(),
                  "registered colour and depth images");
-  Detection detection{Mask(width, height), Image<float>(width, height)};
+  Detection detection{Image<PixelLabel>(width, height), Mask(width, height),
+                      Image<float>(width, height)};
   if (frame.color.empty()) return detection;
 
   const cv::Mat hsv = hsv_of(frame.color);
@@ -124,22 +150,33 @@ Detection ColorDetector::detect(const RgbdFrame& frame) const {
       if (blob.pixels < options_.min_blob_px || blob.area_cm2 < options_.min_blob_area_cm2) {
         continue;
       }
-      detection.fruit.at(u, v) = 1;
-      detection.confidence.at(u, v) = confidence_of(hsv.at<cv::Vec3b>(v, u)[1], blob, options_);
+      const auto pixel = hsv.at<cv::Vec3b>(v, u);
+      const ColorWindow& window = nearest_window(pixel[0], options_.windows);
+      detection.label.at(u, v) = window.label;
+      if (counted_fruit(window.label)) {
+        detection.fruit.at(u, v) = static_cast<std::uint8_t>(window.label);
+      }
+      detection.confidence.at(u, v) = confidence_of(pixel[1], blob, window);
     }
   }
   return detection;
 }
 
 Expected<void> ColorDetectorOptions::validate() const {
-  if (hue_low_deg < -180.0 || hue_high_deg > 180.0 || hue_low_deg >= hue_high_deg) {
-    return fail("hue window must satisfy -180 <= hue_low_deg < hue_high_deg <= 180");
+  if (windows.empty()) return fail("there must be at least one window");
+  for (const ColorWindow& w : windows) {
+    if (w.hue_low_deg < -180.0 || w.hue_high_deg > 180.0 || w.hue_low_deg >= w.hue_high_deg) {
+      return fail("hue windows must satisfy -180 <= hue_low_deg < hue_high_deg <= 180");
+    }
+    if (w.min_saturation < 0.0 || w.min_saturation > 1.0) {
+      return fail("min_saturation must be in 0..1");
+    }
+    if (w.min_saturation_at_fruit < 0.0 || w.min_saturation_at_fruit > w.min_saturation) {
+      return fail("min_saturation_at_fruit must be in 0..min_saturation");
+    }
+    if (w.min_value < 0.0 || w.min_value > 1.0) return fail("min_value must be in 0..1");
+    if (w.label == PixelLabel::background) return fail("a window needs a ripeness");
   }
-  if (min_saturation < 0.0 || min_saturation > 1.0) return fail("min_saturation must be in 0..1");
-  if (min_saturation_at_fruit < 0.0 || min_saturation_at_fruit > min_saturation) {
-    return fail("min_saturation_at_fruit must be in 0..min_saturation");
-  }
-  if (min_value < 0.0 || min_value > 1.0) return fail("min_value must be in 0..1");
   if (opening_radius_px < 0 || closing_radius_px < 0 || opening_radius_px > 20 ||
       closing_radius_px > 20) {
     return fail("opening_radius_px and closing_radius_px must be in 0..20");

@@ -1,21 +1,30 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "canopeer/base/expected.h"
 #include "canopeer/detect/detector.h"
 
 namespace canopeer {
 
-/// A pixel is fruit-coloured when its hue lies in the window and it is saturated and bright enough;
-/// blobs of such pixels are cleaned by morphology and judged by their size in the world.
-struct ColorDetectorOptions {
-  double hue_low_deg = -14.0;    ///< window around red (0°), in [−180, hue_high_deg]
-  double hue_high_deg = 29.0;    ///< turning fruits are orange (19°); green ones start at 50°
+/// The colours of one ripeness: a pixel has one when its hue lies in the window and it is saturated
+/// and bright enough.
+struct ColorWindow {
+  PixelLabel label = PixelLabel::ripe_fruit;
+  double hue_low_deg = -14.0;    ///< red is 0°; in [−180, hue_high_deg]
+  double hue_high_deg = 14.5;
   double min_saturation = 0.78;  ///< HSV, 0 … 1; dry leaves and clay are paler
   double min_value = 0.16;       ///< HSV, 0 … 1; below it hue is noise
   /// Highlights whiten: pixels this pale are taken back when they touch surely fruit-coloured ones.
   double min_saturation_at_fruit = 0.50;
+};
+
+/// Blobs of such pixels are cleaned by morphology and judged by their size in the world.
+struct ColorDetectorOptions {
+  /// Turning fruits are orange (19°). Green ones start at 50°, where leaves are too.
+  std::vector<ColorWindow> windows = {
+      {}, {PixelLabel::turning_fruit, 14.5, 29.0, 0.78, 0.16, 0.50}};
   int opening_radius_px = 1;       ///< removes threads and specks; 0: off
   int closing_radius_px = 2;       ///< closes pinholes; 0: off
   int min_blob_px = 12;            ///< smaller blobs are dropped
@@ -26,12 +35,12 @@ struct ColorDetectorOptions {
 };
 
 /// Fruit by colour (hue window, saturation and value floor; Marangoz et al., CASE 2022, in
-/// simulation), with morphology and a size floor. Pixels without depth are never fruit.
-/// Frames whose colour and depth images differ in size are our bug.
+/// simulation), with morphology and a size floor. Where windows overlap the nearer middle hue
+/// decides. Frames whose colour and depth images differ in size are our bug.
 class ColorDetector final : public Detector {
  public:
   explicit ColorDetector(const ColorDetectorOptions& options = {});
-  [[nodiscard]] Detection detect(const RgbdFrame& frame) const override;
+  [[nodiscard]] Expected<Detection> detect(const RgbdFrame& frame) const override;
 
  private:
   ColorDetectorOptions options_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "canopeer/base/check.h"
 #include "canopeer/eval/matching.h"
 
 namespace canopeer {
@@ -53,25 +54,47 @@ double volume_error(double estimated_cm3, double true_cm3) {
   return std::abs(estimated_cm3 - true_cm3) / true_cm3;
 }
 
+/// Mean errors over pairs; null without any.
+struct MeanErrors {
+  double distance_sum = 0.0, volume_sum = 0.0;
+  int pairs = 0, volumes = 0;
+
+  void add(const FruitPair& pair, const FruitEstimate& estimate, const FruitTruth& truth) {
+    distance_sum += pair.distance_m;
+    ++pairs;
+    if (!(truth.volume_cm3 > 0.0)) return;
+    volume_sum += volume_error(estimate.volume_cm3, truth.volume_cm3);
+    ++volumes;
+  }
+  [[nodiscard]] std::optional<double> centre() const {
+    return pairs > 0 ? std::optional(distance_sum / pairs) : std::nullopt;
+  }
+  [[nodiscard]] std::optional<double> volume() const {
+    return volumes > 0 ? std::optional(volume_sum / volumes) : std::nullopt;
+  }
+};
+
 void score_final_fruits(std::span<const FruitEstimate> fruits, std::span<const FruitTruth> truth,
-                        RunMetrics& metrics) {
+                        std::span<const double> coverage, RunMetrics& metrics) {
   const std::vector<Vec3> centres = centres_of(fruits);
   const FruitMatching strict = match_optimal(centres, truth);
   metrics.detected = static_cast<int>(strict.pairs.size());
   metrics.false_positives = strict.false_positives;
-  double distance_sum = 0.0;
-  double volume_sum = 0.0;
-  int volumes = 0;
+  MeanErrors all;
+  MeanErrors half_seen;
   for (const FruitPair& pair : strict.pairs) {
-    distance_sum += pair.distance_m;
-    const double true_cm3 = truth[static_cast<std::size_t>(pair.truth)].volume_cm3;
-    if (!(true_cm3 > 0.0)) continue;
-    volume_sum +=
-        volume_error(fruits[static_cast<std::size_t>(pair.estimate)].volume_cm3, true_cm3);
-    ++volumes;
+    const FruitEstimate& estimate = fruits[static_cast<std::size_t>(pair.estimate)];
+    const std::size_t t = static_cast<std::size_t>(pair.truth);
+    all.add(pair, estimate, truth[t]);
+    if (!coverage.empty() && coverage[t] >= 0.5) half_seen.add(pair, estimate, truth[t]);
   }
-  if (!strict.pairs.empty()) metrics.centre_error_mean_m = distance_sum / metrics.detected;
-  if (volumes > 0) metrics.volume_error_mean = volume_sum / volumes;
+  metrics.centre_error_mean_m = all.centre();
+  metrics.volume_error_mean = all.volume();
+  if (!coverage.empty()) {
+    metrics.fruits_half_seen = half_seen.pairs;
+    metrics.centre_error_half_seen_m = half_seen.centre();
+    metrics.volume_error_half_seen = half_seen.volume();
+  }
 
   const FruitMatching paper = match_greedy(centres, truth);
   metrics.detected_paper = static_cast<int>(paper.pairs.size());
@@ -82,6 +105,32 @@ void score_final_fruits(std::span<const FruitEstimate> fruits, std::span<const F
         const double estimated = fruits[static_cast<std::size_t>(pair.estimate)].volume_cm3;
         return true_cm3 > 0.0 && 1.0 - volume_error(estimated, true_cm3) > 0.5;
       }));
+}
+
+/// Of the counted fruits together: a large fruit counts as much as its surface is.
+std::optional<double> mean_coverage(std::span<const FruitTruth> truth,
+                                    std::span<const double> coverage) {
+  double seen = 0.0;
+  double all = 0.0;
+  for (std::size_t i = 0; i < coverage.size(); ++i) {
+    if (!truth[i].counted) continue;
+    seen += std::clamp(coverage[i], 0.0, 1.0) * truth[i].surface_cm2;
+    all += truth[i].surface_cm2;
+  }
+  if (!(all > 0.0)) return std::nullopt;
+  return seen / all;
+}
+
+std::optional<PixelHits> sum_of_pixels(const RunRecord& record) {
+  std::optional<PixelHits> sum;
+  for (const ViewEvent& view : record.views) {
+    if (!view.pixels) continue;
+    if (!sum) sum.emplace();
+    sum->right += view.pixels->right;
+    sum->wrong += view.pixels->wrong;
+    sum->missed += view.pixels->missed;
+  }
+  return sum;
 }
 
 void add_up_motions(const RunRecord& record, RunMetrics& metrics) {
@@ -97,11 +146,14 @@ void add_up_motions(const RunRecord& record, RunMetrics& metrics) {
 }  // namespace
 
 RunMetrics compute_metrics(const RunRecord& record, std::span<const FruitEstimate> fruits,
-                           std::span<const FruitTruth> truth) {
+                           std::span<const FruitTruth> truth, std::span<const double> coverage) {
+  CANOPEER_CHECK(coverage.empty() || coverage.size() == truth.size(), "one share per true fruit");
   RunMetrics metrics;
   metrics.fruits_total = static_cast<int>(std::count_if(
       truth.begin(), truth.end(), [](const FruitTruth& fruit) { return fruit.counted; }));
-  score_final_fruits(fruits, truth, metrics);
+  score_final_fruits(fruits, truth, coverage, metrics);
+  metrics.roi_surface_coverage = mean_coverage(truth, coverage);
+  metrics.pixels = sum_of_pixels(record);
   metrics.found = found_over_time(record, truth);
   metrics.time_to_50pct_s = time_to_share(metrics.found, 0.5, metrics.fruits_total);
   metrics.time_to_80pct_s = time_to_share(metrics.found, 0.8, metrics.fruits_total);

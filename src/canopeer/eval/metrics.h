@@ -31,9 +31,15 @@ struct RunMetrics {
   std::optional<double> time_to_80pct_s;
   std::optional<double> time_to_90pct_s;
   double auc = 0.0;  ///< mean of detected / fruits_total over the mission time; 0 without fruits
-  std::optional<double> roi_surface_coverage;  ///< needs the seen surface; not computed yet
+  /// Share of the counted fruits' true surface that was seen; needs the seen surface.
+  std::optional<double> roi_surface_coverage;
   std::optional<double> volume_error_mean;     ///< |V − V*| / V* over the `detected` pairs
   std::optional<double> centre_error_mean_m;   ///< over the `detected` pairs
+  // Of the `detected` fruits at least half of whose true surface was seen.
+  std::optional<int> fruits_half_seen;
+  std::optional<double> volume_error_half_seen;
+  std::optional<double> centre_error_half_seen_m;
+  std::optional<PixelHits> pixels;             ///< of all frames together; null: none had labels
   double joint_path_length_rad = 0.0;          ///< Σ|Δq| of all motions
   double motion_time_s = 0.0;                  ///< of all motions, transitions included
   double planning_time_s = 0.0;                ///< standing still before views
@@ -44,9 +50,12 @@ struct RunMetrics {
 };
 
 /// Scores a run: the counts from the final fruits, the course over time from the fruits known after
-/// each view. Never NaN.
+/// each view. `coverage`: of each true fruit the share of its surface that was seen (see
+/// fruit_coverage()), empty: not known. Errors are means of distances in metres, not of squares;
+/// shares are within 0 … 1; without a detected fruit errors are null, never NaN.
 [[nodiscard]] RunMetrics compute_metrics(const RunRecord& record,
                                          std::span<const FruitEstimate> fruits,
-                                         std::span<const FruitTruth> truth);
+                                         std::span<const FruitTruth> truth,
+                                         std::span<const double> coverage = {});
 
 }  // namespace canopeer

@@ -1,109 +1,242 @@
 #include "canopeer/fruit/fruit_map.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <unordered_map>
 
 #include "canopeer/base/check.h"
-#include "canopeer/fruit/fruit_ids.h"
+#include "canopeer/fruit/euclidean_clusters.h"
 #include "canopeer/fruit/fruit_separation.h"
+#include "canopeer/fruit/missing_surface.h"
 #include "canopeer/fruit/piece_filter.h"
-#include "canopeer/fruit/seen_share.h"
-#include "canopeer/fruit/surface_cells.h"
-#include "canopeer/fruit/voxel_clusters.h"
+#include "canopeer/fruit/plausibility.h"
+#include "canopeer/fruit/voxel_key.h"
 
 namespace canopeer {
 namespace {
 
-constexpr double kTouchingBlocks = 1.75;  // reaches the 26 blocks around one
-
-/// Cells near each other that are solved together.
-struct Block {
-  std::vector<int> cells;
-  bool changed = false;
-};
-
+/// A fruit with all that the next update wants to know of it.
 struct KnownFruit {
   FruitEstimate estimate;
-  int block = 0;  ///< some block of the group it was found in
+  FruitEvidence evidence;
+  double fruit_share = 0.0;
+  double normal_spread = 0.0;
+  SuperellipsoidFit fit;
+  std::vector<std::uint64_t> cells;  ///< its surface, ascending
+  std::vector<int> blocks;           ///< its cells lie in, ascending
+  std::vector<SurfacePoint> surface; ///< until its shape is fitted
 };
 
-FruitEstimate to_estimate(const SeparatedFruit& fruit, const std::vector<SurfacePoint>& surface,
-                          const FruitMapOptions& options) {
-  const ShapeEstimate& shape = fruit.shape;
-  FruitEstimate estimate;
-  estimate.centre = shape.centre;
-  estimate.semi_axes_m = {shape.radius_m, shape.radius_m, shape.half_length_m};
-  estimate.volume_cm3 = shape.volume_cm3();
-  estimate.points = static_cast<int>(fruit.points.size());
-  // Half the surface seen, lying well on an ellipsoid, is about as sure as it gets.
-  const double seen = std::min(1.0, 2.0 * seen_share(shape, surface, fruit.points));
-  const double fit = 1.0 - 0.5 * shape.rms_m / options.max_rms_m;
-  estimate.confidence = std::clamp(seen * fit, 0.0, 1.0);
-  return estimate;
+/// Surface of the blocks that hang together, and which block each point comes from.
+struct Patch {
+  std::vector<int> blocks;  ///< ascending
+  std::vector<SurfacePoint> surface;
+  std::vector<const SurfaceVertex*> vertex;
+  std::vector<int> block;
+};
+
+bool share_element(const std::vector<int>& a, const std::vector<int>& b) {
+  auto i = a.begin();
+  auto j = b.begin();
+  while (i != a.end() && j != b.end()) {
+    if (*i == *j) return true;
+    if (*i < *j) {
+      ++i;
+    } else {
+      ++j;
+    }
+  }
+  return false;
+}
+
+template <typename T>
+void sort_unique(std::vector<T>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
 }  // namespace
 
-/// Blocks that touch are a group. A group is solved anew when one of its cells changed; all others
-/// keep their fruits.
 struct FruitMap::State {
   explicit State(const FruitMapOptions& o)
-      : options(o), cells(o), pieces(o.cluster_tolerance_m / o.cell_m), groups(kTouchingBlocks) {}
+      : options(o), surface(o.tsdf), tracker(o.id_distance_m) {
+    fit_options.prior = o.prior;
+    fit_options.max_points = o.fit_points;
+  }
 
   FruitMapOptions options;
-  SurfaceCells cells;
-  VoxelClusters pieces;               // Euclidean clusters of the cells that count
-  std::vector<int> piece_of_cell;     // number in `pieces`, −1: the cell does not count yet
-  VoxelClusters groups;               // of blocks
-  std::vector<Block> blocks;          // by number in `groups`
-  std::vector<KnownFruit> known;      // by ascending id
-  std::vector<FruitEstimate> fruits;  // the same, as handed out
-  FruitIds ids;
+  FitOptions fit_options;
+  FruitSurface surface;
+  FruitTracker tracker;
+  std::vector<KnownFruit> known;          // by ascending id
+  std::vector<FruitEstimate> fruits;      // of these the likely ones, as handed out
+  std::vector<FruitEstimate> candidates;  // all
+  std::vector<IdChange> id_changes;
+  int fits = 0;
+  // What the frames since the last update saw: blocks of each and its time.
+  std::vector<std::pair<double, std::vector<int>>> seen;
 
-  void note_change(int cell);
-  [[nodiscard]] std::vector<int> changed_groups();
-  [[nodiscard]] std::vector<SurfacePoint> surface_of_group(int group) const;
+  [[nodiscard]] bool counts(const SurfaceVertex& v) const {
+    return v.fruit_share >= options.min_fruit_share;
+  }
+  [[nodiscard]] std::vector<Patch> patches_around(const std::vector<int>& changed) const;
+  [[nodiscard]] Patch without_odd(const Patch& patch) const;
+  void solve(const Patch& patch, std::vector<KnownFruit>& found) const;
+  void measure(KnownFruit& fruit, const KnownFruit* before, const std::vector<int>& changed,
+               bool anew);
+  void update(const std::vector<int>& changed, bool anew);
+  void count_views();
+  void hand_out();
 };
 
-void FruitMap::State::note_change(int cell) {
-  piece_of_cell.resize(cells.cells().size(), -1);
-  const VoxelIndex& index = cells.cells()[cell].index;
-  const Vec3 centre = voxel_centre(index, options.cell_m);
-  const int block = groups.insert(voxel_at(centre, options.group_distance_m));
-  if (static_cast<std::size_t>(block) == blocks.size()) blocks.emplace_back();
-  blocks[block].changed = true;
-  if (piece_of_cell[cell] >= 0) return;
-  piece_of_cell[cell] = pieces.insert(index);
-  blocks[block].cells.push_back(cell);
+/// Blocks with fruit surface that touch, from the changed ones on; each patch once.
+std::vector<Patch> FruitMap::State::patches_around(const std::vector<int>& changed) const {
+  const FruitTsdf& tsdf = surface.tsdf();
+  std::vector<char> reached(tsdf.blocks().size(), 0);
+  const auto has_fruit = [&](int block) {
+    const auto& vertices = surface.vertices(block);
+    return std::any_of(vertices.begin(), vertices.end(),
+                       [&](const SurfaceVertex& v) { return counts(v); });
+  };
+  // A changed block may have lost its surface; its neighbours then still want another look.
+  std::vector<int> starts;
+  for (const int block : changed) {
+    const VoxelIndex index = tsdf.blocks()[static_cast<std::size_t>(block)]->index;
+    for (int k = 0; k < 27; ++k) {
+      const int other = tsdf.block_at(index + VoxelIndex(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
+      if (other >= 0 && has_fruit(other)) starts.push_back(other);
+    }
+  }
+  sort_unique(starts);
+  std::vector<Patch> patches;
+  for (const int start : starts) {
+    if (reached[start] != 0) continue;
+    Patch& patch = patches.emplace_back();
+    reached[start] = 1;
+    patch.blocks.push_back(start);
+    for (std::size_t next = 0; next < patch.blocks.size(); ++next) {
+      const VoxelIndex index = tsdf.blocks()[static_cast<std::size_t>(patch.blocks[next])]->index;
+      for (int k = 0; k < 27; ++k) {
+        const int other = tsdf.block_at(index + VoxelIndex(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
+        if (other < 0 || reached[other] != 0 || !has_fruit(other)) continue;
+        reached[other] = 1;
+        patch.blocks.push_back(other);
+      }
+    }
+    std::sort(patch.blocks.begin(), patch.blocks.end());
+    for (const int block : patch.blocks) {
+      for (const SurfaceVertex& vertex : surface.vertices(block)) {
+        if (!counts(vertex)) continue;
+        patch.surface.push_back(vertex.surface);
+        patch.vertex.push_back(&vertex);
+        patch.block.push_back(block);
+      }
+    }
+  }
+  return patches;
 }
 
-/// Roots of the groups with a change, ascending; forgets the changes.
-std::vector<int> FruitMap::State::changed_groups() {
-  std::vector<int> changed;
-  for (int block = 0; block < groups.size(); ++block) {
-    if (blocks[block].changed) changed.push_back(groups.root(block));
-    blocks[block].changed = false;
+Patch FruitMap::State::without_odd(const Patch& patch) const {
+  const std::vector<int> piece = euclidean_clusters(patch.surface, options.cluster_tolerance_m);
+  const std::vector<char> keep = ordinary_pieces(patch.surface, piece, options);
+  Patch kept;
+  kept.blocks = patch.blocks;
+  for (std::size_t i = 0; i < patch.surface.size(); ++i) {
+    if (keep[i] == 0) continue;
+    kept.surface.push_back(patch.surface[i]);
+    kept.vertex.push_back(patch.vertex[i]);
+    kept.block.push_back(patch.block[i]);
   }
-  std::sort(changed.begin(), changed.end());
-  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-  return changed;
+  return kept;
 }
 
-/// The group's surface without the pieces that are too small or too long.
-std::vector<SurfacePoint> FruitMap::State::surface_of_group(int group) const {
-  std::vector<int> members;
-  for (int block = 0; block < groups.size(); ++block) {
-    if (groups.root(block) != group) continue;
-    members.insert(members.end(), blocks[block].cells.begin(), blocks[block].cells.end());
+/// The patch's fruits with what can be said before their shapes are fitted.
+void FruitMap::State::solve(const Patch& patch, std::vector<KnownFruit>& found) const {
+  for (const SeparatedFruit& separated : separate_fruits(patch.surface, options)) {
+    KnownFruit& fruit = found.emplace_back();
+    FruitEstimate& e = fruit.estimate;
+    e.points = static_cast<int>(separated.points.size());
+    Eigen::Array3d color = Eigen::Array3d::Zero();
+    std::array<int, kPixelLabels> votes{};
+    double fruit_share = 0.0;
+    for (const int i : separated.points) {
+      const SurfaceVertex& v = *patch.vertex[static_cast<std::size_t>(i)];
+      fruit.cells.push_back(voxel_key(v.cell));
+      fruit.blocks.push_back(patch.block[static_cast<std::size_t>(i)]);
+      color += Eigen::Array3d(v.color.r, v.color.g, v.color.b);
+      ++votes[static_cast<std::size_t>(v.kind)];
+      fruit_share += static_cast<double>(v.fruit_share);
+    }
+    sort_unique(fruit.cells);
+    sort_unique(fruit.blocks);
+    color = color / e.points + 0.5;
+    e.color = {static_cast<std::uint8_t>(color[0]), static_cast<std::uint8_t>(color[1]),
+               static_cast<std::uint8_t>(color[2])};
+    e.ripeness = static_cast<PixelLabel>(std::max_element(votes.begin() + 1, votes.end()) -
+                                         votes.begin());
+    e.centre = separated.shape.centre;
+    fruit.fruit_share = fruit_share / e.points;
+    fruit.normal_spread = normal_spread(patch.surface, separated.points);
+    fruit.surface.reserve(separated.points.size());
+    for (const int i : separated.points) {
+      fruit.surface.push_back(patch.surface[static_cast<std::size_t>(i)]);
+    }
   }
-  std::sort(members.begin(), members.end());
-  std::vector<SurfacePoint> surface;
-  std::vector<int> piece;
-  for (const int cell : members) {
-    const SurfaceCell& c = cells.cells()[cell];
-    surface.push_back({c.point(), c.normal()});
-    piece.push_back(pieces.root(piece_of_cell[cell]));
+}
+
+/// Fits the fruit's shape, unless it is the one it was before; from there on when it was there.
+void FruitMap::State::measure(KnownFruit& fruit, const KnownFruit* before,
+                              const std::vector<int>& changed, bool anew) {
+  FruitEstimate& e = fruit.estimate;
+  const bool unchanged = before != nullptr && before->cells == fruit.cells &&
+                         !share_element(fruit.blocks, changed);
+  if (unchanged) {
+    fruit.fit = before->fit;
+    e.seen_share = before->estimate.seen_share;
+  } else {
+    std::optional<Superellipsoid> from;
+    if (before != nullptr && !anew) from = before->fit.body;
+    fruit.fit = fit_superellipsoid(fruit.surface, fit_options, from);
+    ++fits;
+    e.seen_share = missing_surface(fruit.fit.body, fruit.surface).seen_share();
   }
-  return without_odd_pieces(surface, piece, options);
+  fruit.surface = {};
+  set_shape(fruit.fit, e);
+  e.place = place_in_rows(options.rows, e.centre);
+  if (before != nullptr) {
+    e.views = before->estimate.views;
+    e.first_seen_s = before->estimate.first_seen_s;
+    e.last_seen_s = before->estimate.last_seen_s;
+  }
+}
+
+/// A frame is a view of a fruit when its fruit pixels lie in most of the fruit's blocks it could.
+void FruitMap::State::count_views() {
+  for (const auto& [time_s, blocks] : seen) {
+    for (KnownFruit& fruit : known) {
+      if (!share_element(fruit.blocks, blocks)) continue;
+      FruitEstimate& e = fruit.estimate;
+      if (e.views == 0) e.first_seen_s = time_s;
+      e.last_seen_s = time_s;
+      ++e.views;
+    }
+  }
+  seen.clear();
+}
+
+void FruitMap::State::hand_out() {
+  fruits.clear();
+  candidates.clear();
+  for (KnownFruit& fruit : known) {
+    const double cell_cm = 100.0 * options.tsdf.voxel_m;
+    fruit.evidence = evidence_of(fruit.estimate, options, cell_cm * cell_cm, fruit.fruit_share,
+                                 fruit.normal_spread);
+    fruit.estimate.confidence = options.confidence(fruit.evidence);
+    candidates.push_back(fruit.estimate);
+    if (fruit.estimate.confidence >= options.min_confidence) fruits.push_back(fruit.estimate);
+  }
 }
 
 FruitMap::FruitMap(const FruitMapOptions& options) : state_(std::make_unique<State>(options)) {
@@ -114,48 +247,102 @@ FruitMap::FruitMap(FruitMap&&) noexcept = default;
 FruitMap& FruitMap::operator=(FruitMap&&) noexcept = default;
 
 void FruitMap::add(const RgbdFrame& frame, const Mask& fruit) {
-  for (const int cell : state_->cells.add(frame, fruit)) state_->note_change(cell);
+  state_->surface.add(frame, fruit);
+  state_->seen.emplace_back(frame.time_s, state_->surface.tsdf().seen_in_last_frame());
 }
 
-void FruitMap::update() {
-  State& s = *state_;
-  const std::vector<int> changed = s.changed_groups();
-  std::vector<FruitEstimate> before;
-  std::erase_if(s.known, [&](const KnownFruit& fruit) {
-    const int group = s.groups.root(fruit.block);
-    if (!std::binary_search(changed.begin(), changed.end(), group)) return false;
-    before.push_back(fruit.estimate);
-    return true;
-  });
-  std::vector<FruitEstimate> found;
-  std::vector<int> group_of_found;
-  for (const int group : changed) {
-    const std::vector<SurfacePoint> surface = s.surface_of_group(group);
-    for (const SeparatedFruit& fruit : separate_fruits(surface, s.options)) {
-      found.push_back(to_estimate(fruit, surface, s.options));
-      group_of_found.push_back(group);
-    }
+void FruitMap::update() { state_->update(state_->surface.update(), false); }
+
+void FruitMap::update_all() {
+  state_->surface.update();
+  std::vector<int> all(state_->surface.tsdf().blocks().size());
+  std::iota(all.begin(), all.end(), 0);
+  state_->update(all, true);
+}
+
+void FruitMap::State::update(const std::vector<int>& changed, bool anew) {
+  State& s = *this;
+  std::vector<int> concerned = changed;
+  std::vector<KnownFruit> found;
+  for (const Patch& patch : s.patches_around(changed)) {
+    concerned.insert(concerned.end(), patch.blocks.begin(), patch.blocks.end());
+    if (!patch.surface.empty()) s.solve(s.without_odd(patch), found);
   }
-  s.ids.assign(found, before, s.options.id_distance_m);
-  for (std::size_t i = 0; i < found.size(); ++i) s.known.push_back({found[i], group_of_found[i]});
-  std::sort(s.known.begin(), s.known.end(),
-            [](const KnownFruit& a, const KnownFruit& b) { return a.estimate.id < b.estimate.id; });
-  s.fruits.clear();
-  for (const KnownFruit& fruit : s.known) s.fruits.push_back(fruit.estimate);
+  std::sort(concerned.begin(), concerned.end());
+  std::vector<KnownFruit> before;
+  std::vector<KnownFruit> after;
+  for (KnownFruit& fruit : s.known) {
+    (share_element(fruit.blocks, concerned) ? before : after).push_back(std::move(fruit));
+  }
+  std::vector<TrackedFruit> tracked;
+  std::vector<TrackedFruit> tracked_before;
+  for (const KnownFruit& f : found) tracked.push_back({-1, f.estimate.centre, f.cells});
+  for (const KnownFruit& f : before) {
+    tracked_before.push_back({f.estimate.id, f.estimate.centre, f.cells});
+  }
+  s.tracker.assign(tracked, tracked_before);
+  const auto& changes = s.tracker.changes();
+  s.id_changes.insert(s.id_changes.end(), changes.begin(), changes.end());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    found[i].estimate.id = tracked[i].id;
+    const auto same = std::find_if(before.begin(), before.end(), [&](const KnownFruit& f) {
+      return f.estimate.id == tracked[i].id;
+    });
+    s.measure(found[i], same == before.end() ? nullptr : &*same, changed, anew);
+    after.push_back(std::move(found[i]));
+  }
+  std::sort(after.begin(), after.end(), [](const KnownFruit& a, const KnownFruit& b) {
+    return a.estimate.id < b.estimate.id;
+  });
+  s.known = std::move(after);
+  s.count_views();
+  s.hand_out();
 }
 
 const std::vector<FruitEstimate>& FruitMap::fruits() const { return state_->fruits; }
+const std::vector<FruitEstimate>& FruitMap::candidates() const { return state_->candidates; }
+FruitEvidence FruitMap::evidence(std::size_t i) const { return state_->known[i].evidence; }
+const std::vector<IdChange>& FruitMap::id_changes() const { return state_->id_changes; }
+int FruitMap::fits() const { return state_->fits; }
 
 PointCloud FruitMap::cloud() const {
   PointCloud cloud;
-  const std::vector<SurfaceCell>& cells = state_->cells.cells();
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (!state_->cells.counts(static_cast<int>(i))) continue;
-    cloud.points.push_back(cells[i].point().cast<float>());
-    cloud.normals.push_back(cells[i].normal().cast<float>());
-    cloud.colors.push_back(cells[i].color());
+  const std::size_t blocks = state_->surface.tsdf().blocks().size();
+  for (std::size_t block = 0; block < blocks; ++block) {
+    for (const SurfaceVertex& v : state_->surface.vertices(static_cast<int>(block))) {
+      if (!state_->counts(v)) continue;
+      cloud.points.push_back(v.surface.point.cast<float>());
+      cloud.normals.push_back(v.surface.normal.cast<float>());
+      cloud.colors.push_back(v.color);
+    }
   }
   return cloud;
+}
+
+SurfaceMesh FruitMap::surface() const {
+  SurfaceMesh whole = state_->surface.mesh();
+  std::unordered_map<std::uint64_t, int> fruit_of_cell;  // never iterated
+  for (const KnownFruit& fruit : state_->known) {
+    if (fruit.estimate.confidence < state_->options.min_confidence) continue;
+    for (const std::uint64_t cell : fruit.cells) fruit_of_cell[cell] = fruit.estimate.id;
+  }
+  SurfaceMesh mesh;
+  std::vector<std::uint32_t> place(whole.vertices.size(), 0);
+  std::vector<char> kept(whole.vertices.size(), 0);
+  for (std::size_t i = 0; i < whole.vertices.size(); ++i) {
+    const SurfaceVertex& v = whole.vertices[i];
+    if (!state_->counts(v)) continue;
+    kept[i] = 1;
+    place[i] = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.push_back(v);
+    const auto fruit = fruit_of_cell.find(voxel_key(v.cell));
+    mesh.fruit.push_back(fruit == fruit_of_cell.end() ? -1 : fruit->second);
+  }
+  for (const auto& t : whole.triangles) {
+    if (kept[t[0]] == 0 || kept[t[1]] == 0 || kept[t[2]] == 0) continue;
+    mesh.triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
+  }
+  return mesh;
 }
 
 }  // namespace canopeer

@@ -5,6 +5,8 @@
 
 #include "canopeer/fruit/fruit_estimate.h"
 #include "canopeer/fruit/fruit_map_options.h"
+#include "canopeer/fruit/fruit_surface.h"
+#include "canopeer/fruit/fruit_tracker.h"
 #include "canopeer/sensing/image.h"
 #include "canopeer/sensing/point_cloud.h"
 #include "canopeer/sensing/rgbd_frame.h"
@@ -12,7 +14,8 @@
 namespace canopeer {
 
 /// The fruits found so far. Frames go in one by one; update() makes fruits of what has been seen.
-/// Deterministic; one owner (not thread-safe).
+/// One map for the whole mission, in the world: what is seen from both sides of a row, or in several
+/// segments, comes together on the same surface. Deterministic; one owner (not thread-safe).
 class FruitMap {
  public:
   explicit FruitMap(const FruitMapOptions& options = {});
@@ -20,19 +23,30 @@ class FruitMap {
   FruitMap(FruitMap&&) noexcept;
   FruitMap& operator=(FruitMap&&) noexcept;
 
-  /// Adds the frame's fruit pixels; `fruit` has the frame's size. Pixels at depth edges, at grazing
-  /// incidence and out of range are left out.
+  /// Takes in a frame; `fruit` has its size and holds 0 where there is none, else the PixelLabel.
   void add(const RgbdFrame& frame, const Mask& fruit);
 
   /// Re-estimates the fruits near what changed since the last call. Ids are given once and follow a
-  /// fruit from update to update by its nearest previous centre.
+  /// fruit by its surface from update to update.
   void update();
+  /// The same for all there is, forgetting the shapes so far.
+  void update_all();
 
-  /// As of the last update(), by ascending id.
+  /// As of the last update(), by ascending id: those at min_confidence or more.
   [[nodiscard]] const std::vector<FruitEstimate>& fruits() const;
+  /// The same with the unlikely ones, down to confidence 0.
+  [[nodiscard]] const std::vector<FruitEstimate>& candidates() const;
+  /// What tells about candidates()[i].
+  [[nodiscard]] FruitEvidence evidence(std::size_t i) const;
+  /// Merges and splits of ids since the beginning.
+  [[nodiscard]] const std::vector<IdChange>& id_changes() const;
+  /// Shapes fitted since the beginning.
+  [[nodiscard]] int fits() const;
 
-  /// All surface cells seen so far with mean colours and normals, world; in the order first seen.
+  /// Points of the fruit surface with mean colours and normals, world.
   [[nodiscard]] PointCloud cloud() const;
+  /// The same as triangles, each vertex with the id of its fruit.
+  [[nodiscard]] SurfaceMesh surface() const;
 
  private:
   struct State;

@@ -9,11 +9,12 @@
 
 namespace canopeer {
 
-/// `fruits.csv`: one row per fruit in the given order, columns `id, x_m, y_m, z_m, a_m, b_m, c_m,
-/// e1, e2, roll_rad, pitch_rad, yaw_rad, volume_cm3, points, confidence`.
+/// `fruits.csv`: one row per fruit in the given order; columns in docs/formats.md. A fruit in no row
+/// has its last four fields empty.
 [[nodiscard]] std::string fruits_csv(const std::vector<FruitEstimate>& fruits);
 
-/// The error names file, line and column.
+/// The error names file, line and column. Of a file without the columns after `confidence` the rest
+/// keeps its defaults.
 [[nodiscard]] Expected<std::vector<FruitEstimate>> read_fruits_csv(
     const std::filesystem::path& path);
 

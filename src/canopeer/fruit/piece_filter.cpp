@@ -39,9 +39,8 @@ bool odd(std::span<const SurfacePoint> surface, const std::vector<int>& members,
 
 }  // namespace
 
-std::vector<SurfacePoint> without_odd_pieces(std::span<const SurfacePoint> surface,
-                                             std::span<const int> piece,
-                                             const FruitMapOptions& options) {
+std::vector<char> ordinary_pieces(std::span<const SurfacePoint> surface,
+                                  std::span<const int> piece, const FruitMapOptions& options) {
   CANOPEER_CHECK(surface.size() == piece.size(), "one piece number per point");
   std::map<int, std::vector<int>> members;
   for (std::size_t i = 0; i < piece.size(); ++i) members[piece[i]].push_back(static_cast<int>(i));
@@ -50,11 +49,7 @@ std::vector<SurfacePoint> without_odd_pieces(std::span<const SurfacePoint> surfa
     if (!odd(surface, points, options)) continue;
     for (const int i : points) keep[i] = 0;
   }
-  std::vector<SurfacePoint> kept;
-  for (std::size_t i = 0; i < surface.size(); ++i) {
-    if (keep[i] != 0) kept.push_back(surface[i]);
-  }
-  return kept;
+  return keep;
 }
 
 }  // namespace canopeer

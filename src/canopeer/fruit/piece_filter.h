@@ -8,11 +8,11 @@
 
 namespace canopeer {
 
-/// The surface without the connected pieces that cannot be fruit as a whole: specks (fewer than
+/// 0 for the points of connected pieces that cannot be fruit as a whole: specks (fewer than
 /// min_cluster_points) and long thin things such as pipes (longer than max_piece_m, thinner than a
-/// fruit). piece[i] is the number of the piece that surface[i] belongs to. Keeps the order.
-[[nodiscard]] std::vector<SurfacePoint> without_odd_pieces(std::span<const SurfacePoint> surface,
-                                                           std::span<const int> piece,
-                                                           const FruitMapOptions& options);
+/// fruit); 1 for the others. piece[i] is the number of the piece that surface[i] belongs to.
+[[nodiscard]] std::vector<char> ordinary_pieces(std::span<const SurfacePoint> surface,
+                                                std::span<const int> piece,
+                                                const FruitMapOptions& options);
 
 }  // namespace canopeer

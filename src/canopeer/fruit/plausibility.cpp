@@ -1,5 +1,7 @@
 #include "canopeer/fruit/plausibility.h"
 
+#include <cmath>
+
 namespace canopeer {
 namespace {
 
@@ -37,6 +39,38 @@ bool has_fruit_size(const ShapeEstimate& shape, const FruitMapOptions& options) 
 }
 
 }  // namespace
+
+double normal_spread(std::span<const SurfacePoint> surface, const std::vector<int>& points) {
+  return curvature_of(surface, points).spread;
+}
+
+FruitEvidence evidence_of(const FruitEstimate& fruit, const FruitMapOptions& options,
+                          double cell_cm2, double fruit_share, double normal_spread) {
+  const ShapePrior& prior = options.prior;
+  const double across = 0.5 * (fruit.semi_axes_m.x() + fruit.semi_axes_m.y());
+  FruitEvidence e;
+  e.area_cm2 = cell_cm2 * fruit.points;
+  e.seen_share = fruit.seen_share;
+  e.rms_m = fruit.rms_m;
+  e.fruit_share = fruit_share;
+  e.views = fruit.views;
+  e.size_sds = std::hypot((across - prior.radius_m) / prior.radius_sd_m,
+                          (fruit.semi_axes_m.z() - prior.half_length_m) / prior.half_length_sd_m);
+  e.normal_spread = normal_spread;
+  return e;
+}
+
+void set_shape(const SuperellipsoidFit& fit, FruitEstimate& e) {
+  e.centre = fit.body.centre();
+  e.semi_axes_m = fit.body.semi_axes_m;
+  e.e1 = fit.body.e1;
+  e.e2 = fit.body.e2;
+  e.roll_pitch_yaw_rad = roll_pitch_yaw_of(fit.body.T_world_body.linear());
+  e.volume_cm3 = 1e6 * fit.body.volume_m3();
+  e.centre_sd_m = fit.centre_sd_m;
+  e.volume_sd_cm3 = fit.volume_sd_cm3;
+  e.rms_m = fit.rms_m;
+}
 
 bool is_fruit(std::span<const SurfacePoint> surface, const std::vector<int>& points,
               const ShapeEstimate& shape, const FruitMapOptions& options) {

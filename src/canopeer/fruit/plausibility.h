@@ -3,10 +3,22 @@
 #include <span>
 #include <vector>
 
+#include "canopeer/fruit/fruit_estimate.h"
 #include "canopeer/fruit/fruit_map_options.h"
 #include "canopeer/fruit/shape_estimate.h"
 
 namespace canopeer {
+
+/// Variance of the chosen points' normals: 0 for a plane, 0.25 for a cap of ± 41°.
+[[nodiscard]] double normal_spread(std::span<const SurfacePoint> surface,
+                                   const std::vector<int>& points);
+
+/// What a fitted fruit says for being one. `cell_cm2`: area that one of its points stands for.
+[[nodiscard]] FruitEvidence evidence_of(const FruitEstimate& fruit, const FruitMapOptions& options,
+                                        double cell_cm2, double fruit_share, double normal_spread);
+
+/// The shape into the estimate: pose, axes, volume, errors.
+void set_shape(const SuperellipsoidFit& fit, FruitEstimate& estimate);
 
 /// Whether the chosen points with their fitted shape are a fruit: enough of them, of a fruit's size
 /// and roundness, above the floor. Turns down clips (too strongly curved), labels and strings (flat

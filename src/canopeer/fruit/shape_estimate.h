@@ -2,30 +2,10 @@
 
 #include <span>
 
-#include "canopeer/geometry/pose.h"
+#include "canopeer/fruit/shape_prior.h"
+#include "canopeer/geometry/superellipsoid.h"
 
 namespace canopeer {
-
-/// A point of a surface with its unit normal, pointing out of the body; world.
-struct SurfacePoint {
-  Vec3 point = Vec3::Zero();
-  Vec3 normal = Vec3::UnitZ();
-};
-
-/// What is known of a fruit before it is seen: sweet peppers by default (length 74 ± 11 mm, mean of
-/// the two diameters 64 ± 10 mm).
-struct ShapePrior {
-  double radius_m = 0.032;  ///< across the axis
-  double radius_sd_m = 0.005;
-  double half_length_m = 0.037;  ///< along the axis
-  double half_length_sd_m = 0.0055;
-  /// How well the surface is described by an ellipsoid, noise and blockiness together.
-  double surface_sd_m = 0.0025;
-  /// Cells of one surface are not independent evidence: a cluster counts as at most this many.
-  double effective_points = 60.0;
-  /// Spread of the centre around the mean of p − radius · n.
-  double normal_centre_sd_m = 0.012;
-};
 
 /// A spheroid that hangs upright (peppers tilt by 8° ± 5°).
 struct ShapeEstimate {

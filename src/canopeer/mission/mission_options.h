@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "canopeer/base/compute_cost.h"
-#include "canopeer/detect/color_detector.h"
+#include "canopeer/detect/detector_registry.h"
 #include "canopeer/fruit/fruit_map_options.h"
 #include "canopeer/map/fusion.h"
 #include "canopeer/map/voxel_map.h"
@@ -34,7 +34,7 @@ struct MissionOptions {
   FusionOptions fusion;
   double field_truncation_m = 0.15;  ///< distances to occupied voxels are known up to here
   double field_reach_m = 1.4;  ///< half side of the box around the arm's base in which they are
-  ColorDetectorOptions detector;
+  DetectorOptions detector;
   FruitMapOptions fruit;
   CollisionOptions collision;
   MotionPlannerOptions motion;

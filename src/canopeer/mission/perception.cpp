@@ -2,8 +2,28 @@
 
 namespace canopeer {
 
+namespace {
+
+/// Against the labels that came with the frame, where there is depth; none: it has no labels.
+std::optional<PixelCounts> score_pixels(const RgbdFrame& frame, const Mask& found) {
+  if (frame.labels.width() != found.width() || frame.labels.height() != found.height()) {
+    return std::nullopt;
+  }
+  Mask truth(found.width(), found.height());
+  Mask blind(found.width(), found.height());
+  for (std::size_t i = 0; i < truth.pixels().size(); ++i) {
+    truth.pixels()[i] = counted_fruit(frame.labels.pixels()[i]);
+    blind.pixels()[i] = !(frame.depth.pixels()[i] > 0.0F);
+  }
+  PixelCounts counts;
+  counts.add(found, truth, &blind);
+  return counts;
+}
+
+}  // namespace
+
 Perception::Perception(const MissionOptions& options)
-    : options_(options), detector_(options.detector), map_(options.map), fruits_(options.fruit) {}
+    : options_(options), map_(options.map), fruits_(options.fruit) {}
 
 void Perception::move_field(const Vec3& base_world) {
   DistanceFieldOptions around;
@@ -14,10 +34,18 @@ void Perception::move_field(const Vec3& base_world) {
   field_->rebuild(map_);
 }
 
-Observation Perception::observe(const RgbdFrame& frame, const Box& region_world, WorkMeter& work,
-                                StageTimer& timer) {
-  const Detection detection = timer.time("detect", [&] { return detector_.detect(frame); });
+Expected<Observation> Perception::observe(const RgbdFrame& frame, const Box& region_world,
+                                          WorkMeter& work, StageTimer& timer) {
+  if (!detector_) {
+    auto detector = make_detector(options_.detector);
+    if (!detector) return fail_in("detector", detector.error());
+    detector_ = std::move(*detector);
+  }
+  const auto found = timer.time("detect", [&] { return detector_->detect(frame); });
+  if (!found) return fail_in("detector", found.error());
+  const Detection& detection = *found;
   Observation seen;
+  seen.pixels = score_pixels(frame, detection.fruit);
   seen.fused =
       timer.time("fuse", [&] { return fuse(map_, frame, detection.fruit, options_.fusion); });
   timer.time("distance field", [&] { field_->update(map_, seen.fused.changed); });

@@ -4,7 +4,8 @@
 #include <optional>
 
 #include "canopeer/base/compute_cost.h"
-#include "canopeer/detect/color_detector.h"
+#include "canopeer/detect/detector.h"
+#include "canopeer/detect/pixel_score.h"
 #include "canopeer/fruit/fruit_map.h"
 #include "canopeer/map/distance_field.h"
 #include "canopeer/map/frontier.h"
@@ -18,6 +19,7 @@ namespace canopeer {
 /// What one frame taught.
 struct Observation {
   FuseResult fused;
+  std::optional<PixelCounts> pixels;  ///< fruit pixels found against the frame's labels, if it has any
   MapChange change;
 };
 
@@ -31,8 +33,9 @@ class Perception {
   void move_field(const Vec3& base_world);
 
   /// Detects, fuses, and re-extracts the targets inside `region_world`. The fruit map, which nobody
-  /// plans with, is brought up to date aside: its work is not counted.
-  Observation observe(const RgbdFrame& frame, const Box& region_world, WorkMeter& work,
+  /// plans with, is brought up to date aside: its work is not counted. The error is the
+  /// detector's, which is made with the first frame.
+  Expected<Observation> observe(const RgbdFrame& frame, const Box& region_world, WorkMeter& work,
                       StageTimer& timer);
 
   [[nodiscard]] const VoxelMap& map() const { return map_; }
@@ -41,7 +44,7 @@ class Perception {
 
  private:
   MissionOptions options_;
-  ColorDetector detector_;
+  std::unique_ptr<Detector> detector_;  // null before the first frame
   VoxelMap map_;
   std::optional<DistanceField> field_;
   FruitMap fruits_;

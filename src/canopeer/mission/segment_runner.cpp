@@ -86,8 +86,10 @@ Expected<void> SegmentRunner::observe(TargetKind kind, std::optional<std::int64_
   auto frame = context_.timer.time("camera", [&] { return context_.ports.camera->capture(); });
   if (!frame) return fail_in("camera", frame.error());
   WorkMeter work;
-  Observation seen =
+  auto observed =
       context_.perception.observe(*frame, frame_.sampling_region_world, work, context_.timer);
+  if (!observed) return tl::unexpected(observed.error());
+  Observation& seen = *observed;
   ViewEvent view;
   view.segment = index_;
   view.view = static_cast<int>(context_.record.views.size());
@@ -100,12 +102,16 @@ Expected<void> SegmentRunner::observe(TargetKind kind, std::optional<std::int64_
   if (predicted) view.predicted_gain = static_cast<double>(*predicted);
   view.realised_gain = seen.fused.newly_known;
   view.fused_points = seen.fused.fused_points;
+  if (seen.pixels) {
+    view.pixels = PixelHits{seen.pixels->true_positives, seen.pixels->false_positives,
+                            seen.pixels->false_negatives};
+  }
   view.roi_voxels = context_.perception.map().roi_voxels();
   const PlannerStatus status = context_.planner.status();
   view.graph_nodes = status.graph_nodes;
   view.graph_edges = status.graph_edges;
   for (const auto& fruit : context_.perception.fruits().fruits()) {
-    view.fruits.push_back({fruit.id, fruit.centre, fruit.volume_cm3});
+    view.fruits.push_back({fruit.id, fruit.centre, fruit.volume_cm3, fruit.confidence});
   }
   if (auto ok = context_.writer.add(view); !ok) return ok;
   context_.record.views.push_back(std::move(view));

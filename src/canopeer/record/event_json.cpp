@@ -98,8 +98,11 @@ Json from(const ViewEvent& view) {
   Json fruits = Json::array();
   for (const FruitSnapshot& fruit : view.fruits) {
     fruits.push_back(Json::array(
-        {fruit.id, fruit.centre.x(), fruit.centre.y(), fruit.centre.z(), fruit.volume_cm3}));
+        {fruit.id, fruit.centre.x(), fruit.centre.y(), fruit.centre.z(), fruit.volume_cm3,
+         fruit.confidence}));
   }
+  Json pixels;
+  if (view.pixels) pixels = {view.pixels->right, view.pixels->wrong, view.pixels->missed};
   return {{"segment", view.segment},
           {"view", view.view},
           {"t_s", view.t_s},
@@ -112,6 +115,7 @@ Json from(const ViewEvent& view) {
           {"realised_gain", view.realised_gain},
           {"fused_points", view.fused_points},
           {"roi_voxels", view.roi_voxels},
+          {"pixels", std::move(pixels)},
           {"graph_nodes", view.graph_nodes},
           {"graph_edges", view.graph_edges},
           {"fruits", std::move(fruits)}};
@@ -138,7 +142,12 @@ ViewEvent to_view(const Json& json) {
     view.fruits.push_back(
         {fruit.at(0).get<int>(),
          Vec3(to_number(fruit.at(1)), to_number(fruit.at(2)), to_number(fruit.at(3))),
-         to_number(fruit.at(4))});
+         to_number(fruit.at(4)), fruit.size() > 5 ? to_number(fruit.at(5)) : 0.0});
+  }
+  const auto pixels = json.find("pixels");
+  if (pixels != json.end() && !pixels->is_null()) {
+    view.pixels = PixelHits{pixels->at(0).get<std::int64_t>(), pixels->at(1).get<std::int64_t>(),
+                            pixels->at(2).get<std::int64_t>()};
   }
   return view;
 }

@@ -35,6 +35,23 @@ struct FruitSnapshot {
   int id = 0;
   Vec3 centre = Vec3::Zero();
   double volume_cm3 = 0.0;
+  double confidence = 0.0;
+};
+
+/// Fruit pixels a detector found in a frame, against the labels the frame came with.
+struct PixelHits {
+  std::int64_t right = 0;
+  std::int64_t wrong = 0;  ///< found where there is none
+  std::int64_t missed = 0;
+
+  // Of what was found the share that is right; of what is there the share that was found; of
+  // either the share that is both. 1 where there is nothing to divide by.
+  double precision() const { return share(right + wrong); }
+  double recall() const { return share(right + missed); }
+  double iou() const { return share(right + wrong + missed); }
+  double share(std::int64_t whole) const {
+    return whole == 0 ? 1.0 : static_cast<double>(right) / static_cast<double>(whole);
+  }
 };
 
 /// One observation.
@@ -52,6 +69,7 @@ struct ViewEvent {
       0;  ///< voxels that were unknown before this frame and are known after it
   std::int64_t fused_points = 0;
   std::int64_t roi_voxels = 0;  ///< distinct ROI voxels in the map after the frame
+  std::optional<PixelHits> pixels;  ///< nothing when frames come without labels
   int graph_nodes = 0;
   int graph_edges = 0;
   std::vector<FruitSnapshot> fruits;  ///< all fruits known after the frame

@@ -38,6 +38,12 @@ void for_each_field(AnySummary& summary, Visit&& visit) {
   visit("roi_surface_coverage", summary.roi_surface_coverage);
   visit("volume_error_mean", summary.volume_error_mean);
   visit("centre_error_mean_m", summary.centre_error_mean_m);
+  visit("fruits_half_seen", summary.fruits_half_seen);
+  visit("volume_error_half_seen", summary.volume_error_half_seen);
+  visit("centre_error_half_seen_m", summary.centre_error_half_seen_m);
+  visit("pixel_precision", summary.pixel_precision);
+  visit("pixel_recall", summary.pixel_recall);
+  visit("pixel_iou", summary.pixel_iou);
   visit("joint_path_length_rad", summary.joint_path_length_rad);
   visit("motion_time_s", summary.motion_time_s);
   visit("planning_time_s", summary.planning_time_s);

@@ -39,6 +39,12 @@ struct Summary {
   std::optional<double> roi_surface_coverage;
   std::optional<double> volume_error_mean;
   std::optional<double> centre_error_mean_m;
+  std::optional<int> fruits_half_seen;  ///< `detected` ones half of whose true surface was seen
+  std::optional<double> volume_error_half_seen;
+  std::optional<double> centre_error_half_seen_m;
+  std::optional<double> pixel_precision;  ///< of the detector, over all frames with labels
+  std::optional<double> pixel_recall;
+  std::optional<double> pixel_iou;
 
   double joint_path_length_rad = 0.0;
   double motion_time_s = 0.0;

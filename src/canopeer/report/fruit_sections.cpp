@@ -30,6 +30,14 @@ std::string verdict_cell(const FruitVerdict& v, const RunFiles& files) {
   return "–";
 }
 
+/// "row west, right, 2.31 m, 1.04 m up".
+std::string place_cell(const FruitEstimate& f) {
+  if (!f.place) return "–";
+  return fmt::format("row {}, {}, {} m, {} m up", escape_html(f.place->row),
+                     f.place->side == 'L' ? "left" : "right", signed_number(f.place->along_m, 2),
+                     signed_number(f.place->height_m, 2));
+}
+
 }  // namespace
 
 FruitMapInput fruit_map_input(const RunFiles& files) {
@@ -55,7 +63,8 @@ std::string fruit_list_section(const ReportData& data) {
   const RunFiles& files = data.files;
   const bool scored = !files.truth.empty();
   std::vector<std::string> head = {"Fruit",          "x / m",        "y / m",  "z / m",
-                                   "a × b × c / mm", "volume / cm³", "points", "confidence"};
+                                   "a × b × c / mm", "volume / cm³", "seen / %",
+                                   "views", "ripeness", "confidence", "row place"};
   if (scored) head.emplace_back("is");
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < files.fruits.size(); ++i) {
@@ -64,8 +73,10 @@ std::string fruit_list_section(const ReportData& data) {
     rows.push_back({std::to_string(f.id), signed_number(f.centre.x(), 3),
                     signed_number(f.centre.y(), 3), signed_number(f.centre.z(), 3),
                     fmt::format("{:.0f} × {:.0f} × {:.0f}", axes_mm.x(), axes_mm.y(), axes_mm.z()),
-                    fmt::format("{:.0f}", f.volume_cm3), count_text(f.points),
-                    fmt::format("{:.2f}", f.confidence)});
+                    fmt::format("{:.0f} ± {:.0f}", f.volume_cm3, f.volume_sd_cm3),
+                    fmt::format("{:.0f}", 100.0 * f.seen_share), count_text(f.views),
+                    ripeness_name(f.ripeness), fmt::format("{:.2f}", f.confidence),
+                    place_cell(f)});
     if (scored) rows.back().push_back(verdict_cell(data.verdicts[i], files));
   }
   if (rows.empty()) return "<section><p class=\"note\">No fruit was reported.</p></section>\n";

@@ -24,6 +24,7 @@ struct ReportData {
 [[nodiscard]] std::string headline_section(const ReportData& data);
 [[nodiscard]] std::string progress_section(const ReportData& data);
 [[nodiscard]] std::string map_section(const ReportData& data);
+[[nodiscard]] std::string gallery_section(const ReportData& data);
 [[nodiscard]] std::string view_interval_section(const ReportData& data);
 [[nodiscard]] std::string time_use_section(const ReportData& data);
 [[nodiscard]] std::string picture_section(const ReportData& data);

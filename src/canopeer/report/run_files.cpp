@@ -118,6 +118,9 @@ Expected<RunFiles> read_run_files(const std::filesystem::path& run_dir) {
                ? into(files.fruits, read_fruits_csv(run_dir / "fruits.csv"))
                : into<std::vector<FruitEstimate>>(files.fruits, fruits_from_record(files.record));
   }
+  if (read && is_there(run_dir / "fruits.ply")) {
+    read = into(files.surface, read_cloud(run_dir / "fruits.ply"));
+  }
   if (read && is_there(run_dir / "ground_truth.csv")) {
     read = into(files.truth, read_truth(run_dir / "ground_truth.csv"));
   }

@@ -9,6 +9,7 @@
 #include "canopeer/record/run_record.h"
 #include "canopeer/record/summary.h"
 #include "canopeer/scene/fruit_truth.h"
+#include "canopeer/sensing/cloud_file.h"
 
 namespace canopeer {
 
@@ -22,6 +23,7 @@ struct RunFiles {
   Summary summary;
   RunRecord record;
   std::vector<FruitEstimate> fruits;
+  CloudFile surface;                    ///< of the fruits, each point with its fruit; may be empty
   std::vector<FruitTruth> truth;        ///< empty: no ground_truth.csv
   std::vector<ReportPicture> pictures;  ///< by file name
 };

@@ -17,18 +17,22 @@ struct CloudFile {
   /// The property `roi` of each point, 0 … 1 (whole numbers: 0 or not); empty when the file has
   /// none. NaN: nobody looked.
   std::vector<float> roi_confidence;
+  /// The property `fruit` of each point: its number, −1 for none; empty when the file has none.
+  std::vector<int> fruit;
   /// What a PCD file's VIEWPOINT says; nothing when that is the default, which writers put there
   /// when they know no pose.
   std::optional<Pose> T_world_points;
 };
 
-/// Reads `.ply` (ASCII, binary of either byte order) or `.pcd` (ASCII, binary, compressed), by the
-/// ending. Of all properties x, y, z, normals, colours and `roi` are kept. Points may be NaN. The
+/// Reads `.ply` (ASCII, binary of either byte order), `.pcd` (ASCII, binary, compressed) or `.csv`
+/// (a head that names x, y, z, or three columns), by the ending. Of all properties x, y, z,
+/// normals, colours, `roi` and `fruit` are kept. Points may be NaN. The
 /// error names the file and, in text, the line. Memory stays in proportion to the file.
 [[nodiscard]] Expected<CloudFile> read_cloud(const std::filesystem::path& path);
 
 /// The same from the bytes of a file; `name` stands for it in errors.
 [[nodiscard]] Expected<CloudFile> parse_ply(std::string_view bytes, const std::string& name);
 [[nodiscard]] Expected<CloudFile> parse_pcd(std::string_view bytes, const std::string& name);
+[[nodiscard]] Expected<CloudFile> parse_csv_cloud(std::string_view bytes, const std::string& name);
 
 }  // namespace canopeer

@@ -39,7 +39,7 @@ double load_as_double(NumberType type, const char* bytes, ByteOrder order) {
 }
 
 std::optional<Column> column_named(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, Column>, 18> kNames = {{{"x", Column::x},
+  constexpr std::array<std::pair<std::string_view, Column>, 19> kNames = {{{"x", Column::x},
                                                                            {"y", Column::y},
                                                                            {"z", Column::z},
                                                                            {"nx", Column::nx},
@@ -56,7 +56,8 @@ std::optional<Column> column_named(std::string_view name) {
                                                                            {"b", Column::blue},
                                                                            {"rgb", Column::rgb},
                                                                            {"rgba", Column::rgb},
-                                                                           {"roi", Column::roi}}};
+                                                                           {"roi", Column::roi},
+                                                                           {"fruit", Column::fruit}}};
   for (const auto& [known, column] : kNames) {
     if (name == known) return column;
   }
@@ -81,6 +82,7 @@ void CloudBuilder::reserve(std::size_t points) {
   if (has(Column::nx)) file_.cloud.normals.reserve(points);
   if (has(Column::red)) file_.cloud.colors.reserve(points);
   if (has(Column::roi)) file_.roi_confidence.reserve(points);
+  if (has(Column::fruit)) file_.fruit.reserve(points);
 }
 
 void CloudBuilder::set_packed_rgb(std::uint32_t bits) {
@@ -102,6 +104,11 @@ void CloudBuilder::finish_point() {
     const double roi = row_[index(Column::roi)];
     const bool real = is_real(types_[index(Column::roi)]);
     file_.roi_confidence.push_back(static_cast<float>(real ? roi : roi != 0.0 ? 1.0 : 0.0));
+  }
+  if (has(Column::fruit)) {
+    const double fruit = row_[index(Column::fruit)];
+    const bool number = fruit >= 0.0 && fruit < 2147483647.0;
+    file_.fruit.push_back(number ? static_cast<int>(fruit) : -1);
   }
 }
 

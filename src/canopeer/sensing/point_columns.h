@@ -19,8 +19,8 @@ enum class NumberType : std::uint8_t { i8, u8, i16, u16, i32, u32, i64, u64, f32
 [[nodiscard]] double load_as_double(NumberType type, const char* bytes, ByteOrder order);
 
 /// What a column of a cloud file means to us.
-enum class Column : std::uint8_t { x, y, z, nx, ny, nz, red, green, blue, rgb, roi };
-inline constexpr std::size_t kColumns = 11;
+enum class Column : std::uint8_t { x, y, z, nx, ny, nz, red, green, blue, rgb, roi, fruit };
+inline constexpr std::size_t kColumns = 12;
 
 /// By the names PLY and PCD writers use; nothing for columns that are passed over.
 [[nodiscard]] std::optional<Column> column_named(std::string_view name);

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace canopeer {
+
+/// What tells how likely a candidate is a fruit.
+struct FruitEvidence {
+  double area_cm2 = 0.0;      ///< of the surface seen
+  double seen_share = 0.0;    ///< of the fitted shape's surface
+  double rms_m = 0.0;         ///< of the points about the shape
+  double fruit_share = 0.0;   ///< of the pixels on it those taken for fruit
+  int views = 0;              ///< frames it was seen in
+  double size_sds = 0.0;      ///< how far its size is from the prior's, standard deviations
+  double normal_spread = 0.0; ///< variance of the normals: 0 for a plane
+};
+
+/// Logistic regression on the evidence. The weights were fitted on simulated runs; how, and how
+/// well they hold on others, is in docs/decisions/0084-calibrated-confidence.md.
+struct ConfidenceModel {
+  static constexpr int kFeatures = 8;
+  using Features = Eigen::Matrix<double, kFeatures, 1>;
+  Features weights;
+
+  ConfidenceModel();
+  [[nodiscard]] static Features features(const FruitEvidence& evidence);
+  /// Probability that the candidate is a fruit, 0 … 1.
+  [[nodiscard]] double operator()(const FruitEvidence& evidence) const;
+};
+
+}  // namespace canopeer

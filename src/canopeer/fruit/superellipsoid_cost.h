@@ -1,0 +1,48 @@
+#pragma once
+
+#include <span>
+
+#include "canopeer/fruit/shape_prior.h"
+#include "canopeer/geometry/superellipsoid.h"
+
+namespace canopeer {
+
+/// The unknowns of a fit: a, b, c, e1, e2, the centre (world), and a rotation vector w that turns a
+/// reference orientation: R = exp([w]) R_reference.
+inline constexpr int kFitParameters = 11;
+using FitParameters = Eigen::Matrix<double, kFitParameters, 1>;
+
+[[nodiscard]] Superellipsoid body_of(const FitParameters& parameters,
+                                     const Eigen::Matrix3d& reference);
+/// w = 0: the reference is the body's own orientation.
+[[nodiscard]] FitParameters parameters_of(const Superellipsoid& body);
+
+/// What a fit minimises, with its derivative: ½ |r|², r = a robust residual for every point, then
+/// those of the prior. Everything is in standard deviations, so ½ |r|² is minus the log posterior.
+class SuperellipsoidCost {
+ public:
+  /// The points stay where they are while this lives. `centre_vote`: where the normals see the
+  /// centre.
+  SuperellipsoidCost(std::span<const SurfacePoint> surface, const ShapePrior& prior,
+                     const Vec3& centre_vote, const Eigen::Matrix3d& reference);
+
+  static constexpr int kPriorResiduals = 11;
+  [[nodiscard]] int residuals() const {
+    return static_cast<int>(x_.size()) + kPriorResiduals;
+  }
+
+  /// r of length residuals(); `jacobian` row-major residuals() × 11, null: not wanted.
+  void evaluate(const double* parameters, double* r, double* jacobian) const;
+
+ private:
+  void evaluate_points(const FitParameters& p, double* r, double* jacobian) const;
+  void evaluate_prior(const FitParameters& p, double* r, double* jacobian) const;
+
+  Eigen::ArrayXd x_, y_, z_;  // points, world
+  ShapePrior prior_;
+  Vec3 centre_vote_;
+  Eigen::Matrix3d reference_;
+  double weight_;  // of one point: 1 / sd, less where points repeat each other
+};
+
+}  // namespace canopeer
