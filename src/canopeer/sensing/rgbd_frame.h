@@ -1,9 +1,19 @@
 #pragma once
 
+#include <cstdint>
+
 #include "canopeer/sensing/camera_intrinsics.h"
 #include "canopeer/sensing/image.h"
 
 namespace canopeer {
+
+/// What a labelling camera says of a pixel.
+enum class PixelLabel : std::uint8_t { background, green_fruit, turning_fruit, ripe_fruit };
+
+/// Whether the label is one of a fruit that counts.
+inline bool counted_fruit(PixelLabel label) {
+  return label == PixelLabel::turning_fruit || label == PixelLabel::ripe_fruit;
+}
 
 /// One observation: registered depth and colour images of the same size as `intrinsics` says, and
 /// where the camera was.
@@ -13,6 +23,8 @@ struct RgbdFrame {
   Pose T_world_camera = Pose::Identity();
   DepthImage depth;
   ColorImage color;
+  /// From a camera that labels pixels, or from the simulator (with its label noise); empty: none.
+  Image<PixelLabel> labels;
 };
 
 }  // namespace canopeer
