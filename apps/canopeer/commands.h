@@ -29,8 +29,10 @@ struct RunArguments {
 };
 
 struct SceneArguments {
-  MissionArguments mission;
+  MissionArguments mission;  ///< or a scene file in its place
   std::string out;
+  std::string json;  ///< empty: no such file
+  bool counts_only = false;
 };
 
 struct MapFuseArguments {
@@ -73,6 +75,7 @@ void run(const RunArguments& arguments);
 void report(const std::string& directory);
 void scene_render(const SceneArguments& arguments);
 void scene_inspect(const SceneArguments& arguments);
+void scene_generate(const SceneArguments& arguments);
 void scene_import(const ImportArguments& arguments);
 void fruit_fit(const FruitFitArguments& arguments);
 void map_info(const std::string& file);

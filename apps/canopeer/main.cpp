@@ -77,8 +77,17 @@ void add_scene(CLI::App& app, SceneArguments& arguments, ImportArguments& import
   add_mission(*render, arguments.mission);
   render->add_option("--out", arguments.out, "Directory for the pictures");
   render->callback([&arguments] { scene_render(arguments); });
-  CLI::App* inspect = scene->add_subcommand("inspect", "Print what is in the world");
+  CLI::App* generate = scene->add_subcommand(
+      "generate", "Write the world of a mission or scene file: meshes, ground truth, a picture");
+  add_mission(*generate, arguments.mission);
+  generate->add_option("--out", arguments.out, "Directory for the files")->required();
+  generate->callback([&arguments] { scene_generate(arguments); });
+  CLI::App* inspect = scene->add_subcommand(
+      "inspect",
+      "Print what is in the world of a mission or scene file, and how hidden fruits are");
   add_mission(*inspect, arguments.mission);
+  inspect->add_option("--json", arguments.json, "Write the same figures to this file");
+  inspect->add_flag("--counts", arguments.counts_only, "Leave out how hidden the fruits are");
   inspect->callback([&arguments] { scene_inspect(arguments); });
   add_import(*scene, import_arguments);
 }

@@ -89,7 +89,7 @@ void check_sides(const MissionFile& file, const RobotModel& robot) {
 void run(const RunArguments& arguments) {
   const auto begin = std::chrono::steady_clock::now();
   const MissionFile file = load(arguments.mission, overrides_of(arguments));
-  const RobotModel robot = value_or_stop(load_robot(file.robot), kBadInput);
+  const RobotModel robot = value_or_stop(load_robot(file.robot, file.T_frame_camera), kBadInput);
   const ArmIk ik = value_or_stop(ArmIk::make(robot), kBadInput);
   check_sides(file, robot);
   value_or_stop(make_detector(file.mission.detector), kBadInput);

@@ -1,16 +1,19 @@
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <set>
 
 #include "canopeer/base/atomic_file.h"
 #include "canopeer/config/robot_file.h"
+#include "canopeer/import/scene_glb.h"
 #include "canopeer/render/overview.h"
 #include "canopeer/render/renderer.h"
+#include "canopeer/render/rgbd_sensor.h"
 #include "canopeer/scene/ground_truth_csv.h"
+#include "canopeer/scene/ground_truth_json.h"
 #include "canopeer/sensing/png.h"
 #include "commands.h"
 #include "exit_status.h"
-#include "mission_arguments.h"
+#include "scene_source.h"
 #include "world_builder.h"
 
 namespace canopeer::app {
@@ -33,13 +36,16 @@ Rgb label_color(std::uint8_t kind) {
       return {120, 120, 125};
     case PartClass::distractor:
       return {240, 190, 40};
+    case PartClass::support:
+      return {235, 235, 240};
   }
   return {0, 0, 0};
 }
 
-void write_view(const fs::path& out, const std::string& name, const RenderedView& view) {
-  value_or_stop(write_png(out / (name + "_color.png"), view.color), kFailed);
-  value_or_stop(write_depth_png(out / (name + "_depth.png"), view.depth), kFailed);
+void write_view(const fs::path& out, const std::string& name, const RgbdFrame& frame,
+                const RenderedView& view) {
+  value_or_stop(write_png(out / (name + "_color.png"), frame.color), kFailed);
+  value_or_stop(write_depth_png(out / (name + "_depth.png"), frame.depth), kFailed);
   ColorImage labels(view.color.width(), view.color.height());
   for (std::size_t i = 0; i < labels.pixels().size(); ++i) {
     labels.pixels()[i] = label_color(view.labels.kind.pixels()[i]);
@@ -47,49 +53,60 @@ void write_view(const fs::path& out, const std::string& name, const RenderedView
   value_or_stop(write_png(out / (name + "_labels.png"), labels), kFailed);
 }
 
-}  // namespace
-
-/// The whole row from outside, and what the camera sees at home in each segment.
-void scene_render(const SceneArguments& arguments) {
-  const MissionFile file = load(arguments.mission);
-  const RobotModel robot = value_or_stop(load_robot(file.robot), kBadInput);
-  const ImportedScene world = build_world_or_stop(file.world, file.mission.seed, false);
-  const Scene& scene = world.scene;
-  const Renderer renderer(scene);
-  const fs::path out = arguments.out.empty() ? fs::path("out") / "scene" : fs::path(arguments.out);
+fs::path out_or_stop(const std::string& given) {
+  const fs::path out = given.empty() ? fs::path("out") / "scene" : fs::path(given);
   std::error_code code;
   fs::create_directories(out, code);
   if (code) stop_with(kFailed, {out.string() + ": cannot make the directory: " + code.message()});
-  value_or_stop(write_png(out / "row.png", render_overview(scene, 1280, 720)), kFailed);
-  for (std::size_t i = 0; i < file.mission.segments.size(); ++i) {
+  return out;
+}
+
+void write_truth(const fs::path& out, const Scene& scene) {
+  value_or_stop(write_file(out / "ground_truth.csv", ground_truth_csv(scene)), kFailed);
+  value_or_stop(write_file(out / "ground_truth.json", ground_truth_json(scene)), kFailed);
+}
+
+/// What the mission's camera sees at home in each segment, with its faults; labels without.
+void render_segments(const MissionFile& file, const Scene& scene, const fs::path& out) {
+  const RobotModel robot = value_or_stop(load_robot(file.robot, file.T_frame_camera), kBadInput);
+  const Renderer renderer(scene);
+  RgbdSensorOptions options = file.simulation.sensor;
+  options.intrinsics = file.simulation.camera;
+  options.seed = file.simulation.seed;
+  const RgbdSensor sensor(renderer, scene, options);
+  constexpr std::size_t kMost = 32;  // pictures of a long row tell little more
+  for (std::size_t i = 0; i < std::min(file.mission.segments.size(), kMost); ++i) {
     const SegmentPlan& segment = file.mission.segments[i];
     const Pose T_world_camera =
         robot.T_world_base(segment.trolley) *
         robot.T_base_camera(robot.home("side_" + std::to_string(segment.side)));
-    write_view(out, "segment_" + std::to_string(i + 1),
-               renderer.render(file.simulation.camera, T_world_camera));
+    write_view(out, "segment_" + std::to_string(i + 1), sensor.capture(T_world_camera, i),
+               renderer.render(options.intrinsics, T_world_camera));
   }
-  value_or_stop(write_file(out / "ground_truth.csv", ground_truth_csv(scene)), kFailed);
+}
+
+}  // namespace
+
+/// The whole row from outside, and what the camera sees at home in each segment.
+void scene_render(const SceneArguments& arguments) {
+  const SceneSource source = load_scene_source(arguments.mission);
+  const ImportedScene world = build_world_or_stop(source.world, source.seed, false);
+  const fs::path out = out_or_stop(arguments.out);
+  value_or_stop(write_png(out / "row.png", render_overview(world.scene, 1280, 720)), kFailed);
+  if (source.mission) render_segments(*source.mission, world.scene, out);
+  write_truth(out, world.scene);
   std::printf("%s\n", out.c_str());
 }
 
-void scene_inspect(const SceneArguments& arguments) {
-  const MissionFile file = load(arguments.mission);
-  const ImportedScene world = build_world_or_stop(file.world, file.mission.seed, false);
-  const Scene& scene = world.scene;
-  std::set<int> plants;
-  for (const ScenePart& part : scene.parts) {
-    if (part.plant >= 0) plants.insert(part.plant);
-  }
-  int by_class[3] = {0, 0, 0};
-  for (const auto& fruit : scene.fruits) ++by_class[static_cast<int>(fruit.ripeness)];
-  std::printf(
-      "scene             %s, seed %llu\nplants            %zu\ntriangles         %zu\n"
-      "fruits_counted    %d\nfruits_total      %zu (%d ripe, %d turning, %d green)\n",
-      scene.name.c_str(), static_cast<unsigned long long>(scene.seed), plants.size(),
-      scene.triangle_count(), scene.counted_fruits(), scene.fruits.size(),
-      by_class[static_cast<int>(Ripeness::ripe)], by_class[static_cast<int>(Ripeness::turning)],
-      by_class[static_cast<int>(Ripeness::green)]);
+/// The scene as files: meshes, ground truth, a picture.
+void scene_generate(const SceneArguments& arguments) {
+  const SceneSource source = load_scene_source(arguments.mission);
+  const ImportedScene world = build_world_or_stop(source.world, source.seed, false);
+  const fs::path out = out_or_stop(arguments.out);
+  value_or_stop(write_scene_glb(out / "scene.glb", world.scene), kFailed);
+  write_truth(out, world.scene);
+  value_or_stop(write_png(out / "scene.png", render_overview(world.scene, 1280, 720)), kFailed);
+  std::printf("%s\n", out.c_str());
 }
 
 }  // namespace canopeer::app

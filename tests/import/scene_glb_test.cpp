@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "canopeer/import/world_import.h"
-#include "canopeer/scene/row_world.h"
+#include "canopeer/scene/worlds.h"
 #include "mesh_writers.h"
 #include "world_files.h"
 

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "canopeer/scene/row_world.h"
+#include "canopeer/scene/worlds.h"
 #include "support/planning_fixture.h"
 
 namespace canopeer {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "canopeer/scene/row_world.h"
+#include "canopeer/scene/worlds.h"
 
 namespace canopeer {
 namespace {

@@ -7,7 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "canopeer/scene/row_world.h"
+#include "canopeer/scene/plant.h"
+#include "canopeer/scene/worlds.h"
 
 namespace canopeer {
 namespace {
@@ -189,22 +190,6 @@ TEST(Renderer, RipeFruitsAreSeenRedFromTheAisle) {
   EXPECT_GT(red, 0.95 * body);
 }
 
-TEST(Renderer, DepthNoiseIsOffUnlessAskedForAndRepeats) {
-  const Scene scene = one_part(
-      part_of(make_box(Box(Vec3(1, -5, -5), Vec3(2, 5, 5))), PartClass::structure, {90, 90, 90}));
-  const auto camera = CameraIntrinsics::from_fov(160, 120, kFov);
-  const Pose pose = look_at(Vec3(0, 0, 0), Vec3(1, 0, 0));
-  RenderOptions options;
-  options.depth_noise_per_m2 = 0.002;
-  const RenderedView a = Renderer(scene, options).render(camera, pose);
-  const RenderedView b = Renderer(scene, options).render(camera, pose);
-  EXPECT_TRUE(a.depth.pixels() == b.depth.pixels());
-  double squares = 0.0;
-  for (const float d : a.depth.pixels()) squares += (d - 1.0) * (d - 1.0);
-  // 19 200 samples: the standard deviation's own error is 0.5 %.
-  EXPECT_NEAR(std::sqrt(squares / 19200.0), 0.002, 0.0001);
-}
-
 /// A wall at x = 1 whose texture has a hole in the half of greater y, and a red wall behind it.
 Scene wall_with_a_hole() {
   ScenePart front;
@@ -264,6 +249,44 @@ TEST(Renderer, ShowsVertexColoursAndNoGlass) {
   EXPECT_NEAR(view.depth.at(32, 24), 1.0, 1e-4);
   const Rgb c = view.color.at(32, 24);
   EXPECT_GT(c.b, c.r + 50);
+}
+
+TEST(Renderer, ACopyOfAModelLooksLikeTheModelInItsPlace) {
+  // The same plant as parts of the scene, and as a copy of a model.
+  Rng rng(3);
+  const Plant plant = grow_plant(plant_kind(6), rng);
+  const Pose T = Eigen::Translation3d(0.9, 0.2, 0.0) * Eigen::AngleAxisd(1.0, Vec3::UnitZ());
+  Scene placed;
+  for (const ScenePart& part : plant.parts) {
+    ScenePart world = part;
+    world.mesh = {};
+    world.mesh.append(part.mesh, T);
+    if (world.fruit >= 0) world.fruit += 5;
+    placed.parts.push_back(world);
+  }
+  Scene copied;
+  copied.models.push_back({plant.parts});
+  copied.instances.push_back({0, T, 2, 5, 1.0F});
+  const auto camera = CameraIntrinsics::from_fov(320, 240, kFov);
+  const Pose pose = look_at(Vec3(0, 0.1, 0.6), Vec3(0.9, 0.2, 0.4));
+  RenderOptions options;
+  options.shadows = true;
+  const RenderedView a = Renderer(placed, options).render(camera, pose);
+  const RenderedView b = Renderer(copied, options).render(camera, pose);
+  int different = 0;
+  int fruit = 0;
+  for (std::size_t i = 0; i < a.depth.pixels().size(); ++i) {
+    const Rgb& c = a.color.pixels()[i];
+    const Rgb& d = b.color.pixels()[i];
+    const bool same = std::abs(a.depth.pixels()[i] - b.depth.pixels()[i]) < 1e-4F &&
+                      a.labels.fruit.pixels()[i] == b.labels.fruit.pixels()[i] &&
+                      std::abs(c.r - d.r) < 3 && std::abs(c.g - d.g) < 3;
+    different += !same;
+    fruit += b.labels.fruit.pixels()[i] >= 5;
+  }
+  // Rounding moves some edges by a pixel.
+  EXPECT_LT(different, 0.01 * static_cast<double>(a.depth.pixels().size()));
+  EXPECT_GT(fruit, 100);
 }
 
 }  // namespace

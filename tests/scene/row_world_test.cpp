@@ -4,6 +4,8 @@
 
 #include <bit>
 
+#include "canopeer/scene/worlds.h"
+
 namespace canopeer {
 namespace {
 

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "canopeer/config/robot_file.h"
-#include "canopeer/scene/row_world.h"
+#include "canopeer/scene/worlds.h"
 
 namespace canopeer::test {
 namespace {

@@ -2,10 +2,11 @@
 
 #include <numbers>
 
+#include "canopeer/config/camera_section.h"
 #include "canopeer/config/cost_table_file.h"
 #include "canopeer/config/detector_section.h"
 #include "canopeer/config/fruit_section.h"
-#include "canopeer/config/imported_world.h"
+#include "canopeer/config/world_section.h"
 #include "canopeer/config/yaml_reader.h"
 
 namespace canopeer {
@@ -14,36 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kRad = std::numbers::pi / 180.0;
-
-void read_generated_world(YamlMap& world, WorldOptions& options) {
-  const std::string preset = world.choice("preset", "scenario_1", {"scenario_1", "empty"});
-  if (preset == "scenario_1") options = scenario_1_world();
-  options.name = world.text("name", options.name);
-  if (world.has("plants")) options.plants.clear();
-  for (YamlMap& plant : world.maps("plants")) {
-    PlantPlacement placement;
-    placement.kind = plant.required_integer("kind", 1, 9);
-    placement.position =
-        Vec3(plant.required_number("x_m", {-100, 100}), plant.required_number("y_m", {-1000, 1000}),
-             plant.number("z_m", 0.0, {-10, 10}));
-    placement.yaw_rad = plant.number("yaw_deg", 0.0, {-360, 360}) * kRad;
-    options.plants.push_back(placement);
-  }
-  options.walls = world.boolean("walls", options.walls);
-  options.floor = world.boolean("floor", options.floor);
-  options.wall_x_m = world.number("wall_x_m", options.wall_x_m, {1.5, 100});
-  options.pipes = world.boolean("pipes", options.pipes);
-  options.distractors = world.integer("distractors", options.distractors, 0, 1000);
-}
-
-/// A world that is there already, or one to be generated.
-Expected<void> read_world(YamlMap world, WorldSource& source) {
-  if (!world.has("import")) {
-    read_generated_world(world, source.generated);
-    return {};
-  }
-  return read_imported_world(world, source);
-}
 
 /// Order per stop: side 1, side 2, the next lift height, side 1, side 2, the next stop.
 void read_segments(YamlMap& file, MissionOptions& mission) {
@@ -72,18 +43,6 @@ void read_segments(YamlMap& file, MissionOptions& mission) {
   }
   mission.segment_time_s =
       file.number("time_per_segment_s", mission.segment_time_s, {1.0, 36000.0});
-}
-
-void read_camera(YamlMap camera, SimulationOptions& simulation) {
-  const int width = camera.integer("width_px", 640, 16, 8192);
-  const int height = camera.integer("height_px", 480, 16, 8192);
-  const double fov = camera.number("fov_x_deg", 80.0, {1.0, 170.0}) * kRad;
-  simulation.camera = CameraIntrinsics::from_fov(width, height, fov);
-  simulation.camera.min_range_m = camera.number("min_range_m", 0.15, {0.01, 10.0});
-  simulation.camera.max_range_m = camera.number("max_range_m", 3.0, {0.02, 100.0});
-  if (simulation.camera.min_range_m >= simulation.camera.max_range_m) {
-    camera.complain("max_range_m", "expected more than min_range_m");
-  }
 }
 
 void read_map(YamlMap map, MissionOptions& mission) {
@@ -191,7 +150,8 @@ Expected<MissionFile> load_mission(const fs::path& path, const Overrides& overri
   if (auto ok = read_world(file->map("world"), result.world); !ok) {
     return tl::unexpected(ok.error());
   }
-  read_camera(file->map("camera"), result.simulation);
+  read_camera(file->map("camera"), result);
+  read_noise(*file, result.simulation.sensor);
   read_map(file->map("map"), mission);
   read_view_sampling(file->map("view_sampling"), vmp.builder);
   read_graph(file->map("graph"), vmp.builder);

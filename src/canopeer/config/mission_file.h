@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@ struct MissionFile {
   std::filesystem::path robot;  ///< robot.yaml
   WorldSource world;
   SimulationOptions simulation;
+  std::optional<Pose> T_frame_camera;     ///< camera mounting in place of the robot file's
   std::string compute_table = "default";  ///< name or file of the cost table
   std::string settings_json;              ///< every key with the value in force, defaults too
 };

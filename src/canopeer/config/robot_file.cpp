@@ -8,7 +8,7 @@
 #include "canopeer/config/yaml_reader.h"
 
 namespace canopeer {
-namespace {
+namespace {}  // namespace
 
 Pose read_pose(YamlMap pose) {
   const std::vector<double> xyz = pose.numbers("xyz_m", {0.0, 0.0, 0.0}, 3);
@@ -22,6 +22,8 @@ Pose read_pose(YamlMap pose) {
                    .toRotationMatrix();
   return T;
 }
+
+namespace {
 
 Box read_box(YamlMap box) {
   Box result;
@@ -47,6 +49,7 @@ struct RobotFile {
   RobotSetup setup;
   std::vector<double> arm_acceleration_limits;
   double trolley_acceleration_limit = 0.0;
+  std::optional<Pose> T_frame_camera;  // the mounting, when the file says one
 };
 
 Expected<RobotFile> read_keys(const std::filesystem::path& path) {
@@ -65,6 +68,7 @@ Expected<RobotFile> read_keys(const std::filesystem::path& path) {
   setup.travel_joint = yaml.text("travel_joint", "");
   setup.lift_joint = yaml.text("lift_joint", "");
   setup.T_world_root = read_pose(yaml.map("world_to_root"));
+  if (yaml.has("camera_mounting")) file.T_frame_camera = read_pose(yaml.map("camera_mounting"));
 
   const std::size_t dof = setup.arm_joints.size();
   file.arm_acceleration_limits = yaml.numbers("arm_acceleration_limits_rad_s2",
@@ -94,9 +98,28 @@ void set_acceleration_limits(const RobotFile& file, RobotDescription& robot) {
   }
 }
 
+/// Hangs a frame of the camera's own on the frame the URDF has for it.
+void mount_camera(const Pose& T_frame_camera, RobotDescription& robot, RobotSetup& setup) {
+  const std::string mounted = setup.camera_frame + "_as_mounted";
+  Joint joint;
+  joint.name = mounted + "_joint";
+  joint.parent = setup.camera_frame;
+  joint.child = mounted;
+  joint.T_parent_joint = T_frame_camera;
+  robot.links.push_back({mounted, {}});
+  robot.joints.push_back(joint);
+  setup.camera_frame = mounted;
+}
+
+bool has_link(const RobotDescription& robot, const std::string& name) {
+  return std::any_of(robot.links.begin(), robot.links.end(),
+                     [&](const Link& link) { return link.name == name; });
+}
+
 }  // namespace
 
-Expected<RobotModel> load_robot(const std::filesystem::path& path) {
+Expected<RobotModel> load_robot(const std::filesystem::path& path,
+                                const std::optional<Pose>& T_frame_camera) {
   auto file = read_keys(path);
   if (!file) return fail(file.error().message);
   auto robot = read_urdf(file->urdf);
@@ -105,6 +128,10 @@ Expected<RobotModel> load_robot(const std::filesystem::path& path) {
     if (auto read = read_srdf(file->srdf, *robot); !read) return fail(read.error().message);
   }
   set_acceleration_limits(*file, *robot);
+  const auto mounting = T_frame_camera ? T_frame_camera : file->T_frame_camera;
+  if (mounting && has_link(*robot, file->setup.camera_frame)) {
+    mount_camera(*mounting, *robot, file->setup);
+  }
   auto model = RobotModel::make(std::move(*robot), file->setup);
   if (!model) return fail_in(path.string(), model.error());
   return model;

@@ -1,14 +1,22 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "canopeer/base/expected.h"
+#include "canopeer/config/yaml_reader.h"
 #include "canopeer/robot/robot_model.h"
 
 namespace canopeer {
 
 /// Reads a robot.yaml and the URDF and SRDF it names (relative to it). Errors name file, line and
 /// key, what was expected, and the nearest valid key.
-[[nodiscard]] Expected<RobotModel> load_robot(const std::filesystem::path& path);
+/// Where the camera is mounted on the URDF's camera frame (hand–eye transformation) comes from
+/// `T_frame_camera`, else from the file's `camera_mounting`, else it is that frame.
+[[nodiscard]] Expected<RobotModel> load_robot(const std::filesystem::path& path,
+                                              const std::optional<Pose>& T_frame_camera = {});
+
+/// `xyz_m` and `rpy_deg` (fixed axes x, y, z), both zero by default.
+[[nodiscard]] Pose read_pose(YamlMap pose);
 
 }  // namespace canopeer

@@ -43,7 +43,10 @@ class GlbWriter {
   int add_vectors(const std::vector<Eigen::Vector3f>& vectors, bool bounds);
   Expected<int> add_texture(const std::shared_ptr<const Texture>& texture);
   Expected<int> add_material(const ScenePart& part);
-  Expected<int> add_part(const ScenePart& part, const std::string& name);
+  Expected<int> add_mesh(const ScenePart& part, const std::string& name);
+  int add_node(const std::string& name, int mesh);
+  Expected<void> add_parts(Json* roots);
+  Expected<void> add_copies(Json* roots);
   [[nodiscard]] std::string material_name(const ScenePart& part) const;
   [[nodiscard]] std::string group_of(const ScenePart& part) const;
   void name_plants();
@@ -154,8 +157,23 @@ Expected<int> GlbWriter::add_material(const ScenePart& part) {
   return index;
 }
 
-/// Index of the part's node.
-Expected<int> GlbWriter::add_part(const ScenePart& part, const std::string& name) {
+/// What a part is called: fruits by their number in the ground truth, the others by their own.
+std::string name_of(const ScenePart& part, int first_fruit, std::size_t index) {
+  if (part.fruit >= 0) return "fruit_" + std::to_string(first_fruit + part.fruit);
+  const std::string kind = part_class_name(part.kind);
+  return (part.kind == PartClass::fruit ? "fruit_part" : kind) + "_" + std::to_string(index);
+}
+
+/// Column by column, z up turned into y up on both sides.
+Json matrix_of(const Pose& T) {
+  Eigen::Matrix4d up = Eigen::Matrix4d::Identity();  // x right, y up, z towards us
+  up.topLeftCorner<3, 3>() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  const Eigen::Matrix4d M = up * T.matrix() * up.transpose();
+  return std::vector<double>(M.data(), M.data() + 16);
+}
+
+/// Index of the part's mesh.
+Expected<int> GlbWriter::add_mesh(const ScenePart& part, const std::string& name) {
   const auto material = add_material(part);
   if (!material) return tl::unexpected(material.error());
   const TriangleMesh& mesh = part.mesh;
@@ -195,29 +213,68 @@ Expected<int> GlbWriter::add_part(const ScenePart& part, const std::string& name
                              {"primitives", Json::array({{{"attributes", attributes},
                                                           {"indices", indices},
                                                           {"material", *material}}})}});
-  json_["nodes"].push_back({{"name", name}, {"mesh", json_["meshes"].size() - 1}});
+  return static_cast<int>(json_["meshes"].size()) - 1;
+}
+
+int GlbWriter::add_node(const std::string& name, int mesh) {
+  json_["nodes"].push_back({{"name", name}, {"mesh", mesh}});
   return static_cast<int>(json_["nodes"].size()) - 1;
 }
 
-Expected<std::string> GlbWriter::write() {
-  name_plants();
+Expected<void> GlbWriter::add_parts(Json* roots) {
   std::vector<std::string> order;
   std::map<std::string, Json> children;
   for (std::size_t i = 0; i < scene_.parts.size(); ++i) {
     const ScenePart& part = scene_.parts[i];
     if (part.mesh.triangles.empty()) continue;
     const std::string group = group_of(part);
-    const auto node =
-        add_part(part, std::string(part_class_name(part.kind)) + "_" + std::to_string(i));
-    if (!node) return tl::unexpected(node.error());
+    const std::string name = name_of(part, 0, i);
+    const auto mesh = add_mesh(part, name);
+    if (!mesh) return tl::unexpected(mesh.error());
     if (children.count(group) == 0) order.push_back(group);
-    children[group].push_back(*node);
+    children[group].push_back(add_node(name, *mesh));
   }
-  Json roots = Json::array();
   for (const std::string& group : order) {
     json_["nodes"].push_back({{"name", group}, {"children", children[group]}});
-    roots.push_back(json_["nodes"].size() - 1);
+    roots->push_back(json_["nodes"].size() - 1);
   }
+  return {};
+}
+
+/// Copies share their model's meshes.
+Expected<void> GlbWriter::add_copies(Json* roots) {
+  std::vector<std::vector<int>> meshes(scene_.models.size());
+  for (std::size_t m = 0; m < scene_.models.size(); ++m) {
+    const auto first = std::find_if(scene_.instances.begin(), scene_.instances.end(),
+                                    [&](const SceneInstance& copy) { return copy.model == m; });
+    if (first == scene_.instances.end()) continue;
+    for (ScenePart part : scene_.models[m].parts) {
+      if (part.fruit >= 0) part.fruit += first->first_fruit;  // all copies' fruits count alike
+      const auto mesh =
+          add_mesh(part, "model_" + std::to_string(m) + "_" + part_class_name(part.kind));
+      if (!mesh) return tl::unexpected(mesh.error());
+      meshes[m].push_back(*mesh);
+    }
+  }
+  for (const SceneInstance& copy : scene_.instances) {
+    Json children = Json::array();
+    const std::vector<ScenePart>& parts = scene_.models[copy.model].parts;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      children.push_back(add_node(name_of(parts[i], copy.first_fruit, i), meshes[copy.model][i]));
+    }
+    json_["nodes"].push_back({{"name", "plant_" + std::to_string(copy.plant)},
+                              {"matrix", matrix_of(copy.T_world_model)},
+                              {"children", children}});
+    roots->push_back(json_["nodes"].size() - 1);
+  }
+  return {};
+}
+
+Expected<std::string> GlbWriter::write() {
+  name_plants();
+  Json roots = Json::array();
+  if (auto ok = add_parts(&roots); !ok) return tl::unexpected(ok.error());
+  if (auto ok = add_copies(&roots); !ok) return tl::unexpected(ok.error());
   json_["scenes"] = Json::array({{{"name", scene_.name}, {"nodes", roots}}});
   json_["scene"] = 0;
   binary_.resize((binary_.size() + 3) / 4 * 4, '\0');

@@ -18,19 +18,20 @@ constexpr std::size_t kEnoughPoints = 20000;
 
 /// Points all over the plants, or over everything when there are none: far fewer than there are.
 std::vector<Vec3> points_on(const Scene& scene) {
-  const bool any_plant = std::any_of(scene.parts.begin(), scene.parts.end(),
-                                     [](const ScenePart& part) { return part.plant >= 0; });
+  const bool any_plant = scene.plant_count() > 0;
   std::size_t total = 0;
-  for (const ScenePart& part : scene.parts) total += part.mesh.vertices.size();
+  scene.for_each_part([&](const ScenePart& part, const Pose&, const SceneInstance*) {
+    total += part.mesh.vertices.size();
+  });
   const std::size_t step = 1 + total / kEnoughPoints;
   std::vector<Vec3> points;
   std::size_t at = 0;
-  for (const ScenePart& part : scene.parts) {
-    if (any_plant && part.plant < 0) continue;
+  scene.for_each_part([&](const ScenePart& part, const Pose& T, const SceneInstance*) {
+    if (any_plant && part.plant < 0) return;
     for (const auto& v : part.mesh.vertices) {
-      if (at++ % step == 0) points.push_back(v.cast<double>());
+      if (at++ % step == 0) points.push_back(T * v.cast<double>());
     }
-  }
+  });
   return points;
 }
 

@@ -7,7 +7,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <numbers>
 
 #include "canopeer/base/check.h"
 #include "canopeer/render/pixel_hash.h"
@@ -22,6 +21,7 @@ static_assert(kBlock * kBlock == RayCaster::kPacket);
 
 /// What all pixels of a view share.
 struct View {
+  const CameraRays& rays;
   const CameraIntrinsics& camera;
   Eigen::Vector3f origin;
   Eigen::Matrix3d R_world_camera;
@@ -48,7 +48,7 @@ Block make_block(const View& view, int u0, int v0) {
   for (int v = v0; v < std::min(v0 + kBlock, view.camera.height); ++v) {
     for (int u = u0; u < std::min(u0 + kBlock, view.camera.width); ++u) {
       // The direction's component along the optical axis is 1: distances are depths.
-      const Vec3 direction = view.R_world_camera * view.camera.ray(u, v);
+      const Vec3 direction = view.R_world_camera * view.rays.ray(u, v);
       block.rays[block.count] = {view.origin, direction.cast<float>()};
       block.pixels[block.count++] = {u, v};
     }
@@ -70,11 +70,21 @@ Rgb to_rgb(const Eigen::Vector3f& color, float noise, std::uint64_t bits) {
   return {c[0], c[1], c[2]};
 }
 
-/// Normal deviate from hashed bits (Box–Muller).
-double normal_from(std::uint64_t bits) {
-  const double u = (static_cast<double>(bits >> 32) + 1.0) * 0x1.0p-32;
-  const double v = static_cast<double>(bits & 0xffffffffULL) * 0x1.0p-32;
-  return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
+/// Nothing outside the sensor's range.
+float in_range(float depth, const CameraIntrinsics& camera) {
+  return depth >= camera.min_range_m && depth <= camera.max_range_m ? depth : 0.0F;
+}
+
+std::vector<SurfaceSoup> make_models(const Scene& scene) {
+  std::vector<SurfaceSoup> models;
+  for (const SceneModel& model : scene.models) models.push_back(make_surface_soup(model.parts));
+  return models;
+}
+
+std::vector<RayCaster::Placement> placements_of(const Scene& scene) {
+  std::vector<RayCaster::Placement> placements;
+  for (const SceneInstance& i : scene.instances) placements.push_back({i.model, i.T_world_model});
+  return placements;
 }
 
 }  // namespace
@@ -82,17 +92,36 @@ double normal_from(std::uint64_t bits) {
 struct Renderer::Impl {
   Impl(const Scene& scene, const RenderOptions& o)
       : options(o),
-        soup(make_surface_soup(scene)),
-        caster(soup),
-        light{o.light_direction.normalized().cast<float>(), static_cast<float>(o.ambient)} {}
+        world(make_surface_soup(scene.parts)),
+        models(make_models(scene)),
+        caster(world, models, placements_of(scene)),
+        light{o.light_direction.normalized().cast<float>(), static_cast<float>(o.ambient)} {
+    for (const SceneInstance& instance : scene.instances) {
+      copies.push_back({&models[instance.model],
+                        instance.T_world_model.linear().transpose().cast<float>(),
+                        instance.brightness, static_cast<std::int16_t>(instance.first_fruit)});
+    }
+  }
 
   void cast_shadows(Block* block) const;
-  float measured_depth(float depth, const CameraIntrinsics& camera, std::uint64_t bits) const;
   void render_block(const View& view, int u0, int v0, RenderedView* out) const;
 
   RenderOptions options;
-  SurfaceSoup soup;
+  /// A model in its place: shading is done in its frame.
+  struct Copy {
+    const SurfaceSoup* soup;
+    Eigen::Matrix3f R_model_world;
+    float brightness;
+    std::int16_t first_fruit;
+  };
+
+  void shade_pixel(const Block& block, std::size_t i, std::uint64_t bits, const View& view,
+                   RenderedView* out) const;
+
+  SurfaceSoup world;
+  std::vector<SurfaceSoup> models;
   RayCaster caster;
+  std::vector<Copy> copies;
   Light light;
 };
 
@@ -105,16 +134,6 @@ void Renderer::Impl::cast_shadows(Block* block) const {
   constexpr float kOffSurface = 1e-3F;
   caster.occluded(std::span(to_light).first(block->count), kOffSurface,
                   std::span(block->shadowed).first(block->count));
-}
-
-/// What the sensor says of a true depth: noise, then nothing outside its range.
-float Renderer::Impl::measured_depth(float depth, const CameraIntrinsics& camera,
-                                     std::uint64_t bits) const {
-  double z = depth;
-  if (options.depth_noise_per_m2 > 0.0) {
-    z += options.depth_noise_per_m2 * z * z * normal_from(pixel_hash(bits));
-  }
-  return z >= camera.min_range_m && z <= camera.max_range_m ? static_cast<float>(z) : 0.0F;
 }
 
 void Renderer::Impl::render_block(const View& view, int u0, int v0, RenderedView* out) const {
@@ -132,13 +151,31 @@ void Renderer::Impl::render_block(const View& view, int u0, int v0, RenderedView
       out->color.at(u, v) = to_rgb(sky_color(block.rays[i].direction), noise, bits);
       continue;
     }
-    const SurfaceSoup::Part& part = soup.parts[soup.part_of[hit.triangle]];
-    out->color.at(u, v) =
-        to_rgb(shade(soup, hit, block.rays[i], light, block.shadowed[i]), noise, bits);
-    out->depth.at(u, v) = measured_depth(hit.distance, view.camera, bits);
-    out->labels.kind.at(u, v) = static_cast<std::uint8_t>(part.kind);
-    out->labels.fruit.at(u, v) = part.fruit;
+    shade_pixel(block, i, bits, view, out);
   }
+}
+
+void Renderer::Impl::shade_pixel(const Block& block, std::size_t i, std::uint64_t bits,
+                                 const View& view, RenderedView* out) const {
+  const auto [u, v] = block.pixels[i];
+  const RayCaster::Hit& hit = block.hits[i];
+  const Copy* copy = hit.instance == RayCaster::Hit::kNone ? nullptr : &copies[hit.instance];
+  const SurfaceSoup& soup = copy == nullptr ? world : *copy->soup;
+  Eigen::Vector3f color;
+  if (copy == nullptr) {
+    color = shade(soup, hit, block.rays[i], light, block.shadowed[i]);
+  } else {
+    const RayCaster::Ray local{block.rays[i].origin, copy->R_model_world * block.rays[i].direction};
+    const Light turned{copy->R_model_world * light.direction, light.ambient};
+    color = copy->brightness * shade(soup, hit, local, turned, block.shadowed[i]);
+  }
+  const SurfaceSoup::Part& part = soup.parts[soup.triangles[hit.triangle].part];
+  out->color.at(u, v) = to_rgb(color, static_cast<float>(options.color_noise), bits);
+  out->depth.at(u, v) = in_range(hit.distance, view.camera);
+  out->labels.kind.at(u, v) = static_cast<std::uint8_t>(part.kind);
+  const bool numbered = copy != nullptr && part.fruit >= 0;
+  out->labels.fruit.at(u, v) =
+      static_cast<std::int16_t>(part.fruit + (numbered ? copy->first_fruit : 0));
 }
 
 Renderer::Renderer(const Scene& scene, const RenderOptions& options)
@@ -147,8 +184,8 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
-RenderedView Renderer::render(const CameraIntrinsics& intrinsics,
-                              const Pose& T_world_camera) const {
+RenderedView Renderer::render(const CameraRays& rays, const Pose& T_world_camera) const {
+  const CameraIntrinsics& intrinsics = rays.intrinsics();
   const int width = intrinsics.width;
   const int height = intrinsics.height;
   CANOPEER_CHECK(width > 0 && height > 0, "an image has pixels");
@@ -156,8 +193,8 @@ RenderedView Renderer::render(const CameraIntrinsics& intrinsics,
                    ColorImage(width, height),
                    {Image<std::int16_t>(width, height, std::int16_t{-1}),
                     Image<std::uint8_t>(width, height, Labels::kNothing)}};
-  const View view{intrinsics, T_world_camera.translation().cast<float>(), T_world_camera.linear(),
-                  key_of(impl_->options.noise_seed, T_world_camera)};
+  const View view{rays, intrinsics, T_world_camera.translation().cast<float>(),
+                  T_world_camera.linear(), key_of(impl_->options.noise_seed, T_world_camera)};
   // Every pixel is written by one task and depends on nothing but itself.
   const int block_rows = (height + kBlock - 1) / kBlock;
   oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<int>(0, block_rows, 2),

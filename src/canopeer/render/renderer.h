@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "canopeer/scene/scene.h"
-#include "canopeer/sensing/camera_intrinsics.h"
+#include "canopeer/sensing/camera_rays.h"
 #include "canopeer/sensing/image.h"
 
 namespace canopeer {
@@ -26,11 +26,10 @@ struct RenderedView {
 struct RenderOptions {
   /// Towards the light, world; any length but 0.
   Vec3 light_direction{0.35, -0.25, 0.9};
-  double ambient = 0.6;             ///< share of the light that comes from everywhere, 0 … 1
-  bool shadows = false;             ///< one shadow ray a pixel
-  double color_noise = 2.0;         ///< half width of triangular noise per channel, grey levels
-  double depth_noise_per_m2 = 0.0;  ///< standard deviation of depth is this · depth²
-  std::uint64_t noise_seed = 1;     ///< noise depends on this, the pose and the pixel only
+  double ambient = 0.6;          ///< share of the light that comes from everywhere, 0 … 1
+  bool shadows = false;          ///< one shadow ray a pixel
+  double color_noise = 2.0;      ///< half width of triangular noise per channel, grey levels
+  std::uint64_t noise_seed = 1;  ///< noise depends on this, the pose and the pixel only
 };
 
 /// Renders what an RGB-D camera sees of a scene (ray casting with Embree). The scene is copied.
@@ -44,7 +43,11 @@ class Renderer {
   /// One view; the ray of a pixel goes through its centre. Colour and labels reach beyond the depth
   /// range. Thread-safe; the same arguments give the same images with any number of threads.
   [[nodiscard]] RenderedView render(const CameraIntrinsics& intrinsics,
-                                    const Pose& T_world_camera) const;
+                                    const Pose& T_world_camera) const {
+    return render(CameraRays(intrinsics), T_world_camera);
+  }
+  /// The same through a lens; the images are those the lens casts.
+  [[nodiscard]] RenderedView render(const CameraRays& rays, const Pose& T_world_camera) const;
 
  private:
   struct Impl;

@@ -62,17 +62,17 @@ float blotches(float x, float y, float cells_per_m) {
 
 Eigen::Vector3f shade(const SurfaceSoup& soup, const RayCaster::Hit& hit, const RayCaster::Ray& ray,
                       const Light& light, bool shadowed) {
-  const auto& t = soup.triangles[hit.triangle];
-  const SurfaceSoup::Part& part = soup.parts[soup.part_of[hit.triangle]];
+  const SurfaceSoup::Triangle& triangle = soup.triangles[hit.triangle];
+  const SurfaceSoup::Part& part = soup.parts[triangle.part];
+  const SurfaceSoup::Finish& a = soup.finish[triangle.vertex[0]];
+  const SurfaceSoup::Finish& b = soup.finish[triangle.vertex[1]];
+  const SurfaceSoup::Finish& c = soup.finish[triangle.vertex[2]];
   const Finish finish = finish_of(part.kind);
   const float w = 1.0F - hit.u - hit.v;
-  Eigen::Vector3f n =
-      (w * soup.normals[t[0]] + hit.u * soup.normals[t[1]] + hit.v * soup.normals[t[2]])
-          .normalized();
+  Eigen::Vector3f n = (w * a.normal + hit.u * b.normal + hit.v * c.normal).normalized();
   if (n.dot(ray.direction) > 0.0F) n = -n;  // towards the viewer
 
-  float even =
-      w * soup.brightness[t[0]] + hit.u * soup.brightness[t[1]] + hit.v * soup.brightness[t[2]];
+  float even = w * a.brightness + hit.u * b.brightness + hit.v * c.brightness;
   if (part.kind == PartClass::structure && n.z() > 0.5F) {
     const Eigen::Vector3f p = ray.origin + hit.distance * ray.direction;
     even = 1.0F + 0.05F * blotches(p.x(), p.y(), 66.0F) + 0.05F * blotches(p.x(), p.y(), 9.0F);

@@ -53,35 +53,33 @@ void add_part(const ScenePart& part, SurfaceSoup* soup) {
       {to_vector(part.color), part.kind, static_cast<std::int16_t>(part.fruit), nullptr, false});
   add_paint(part, first, soup);
   soup->vertices.insert(soup->vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-  soup->normals.insert(soup->normals.end(), mesh.normals.begin(), mesh.normals.end());
   // A picture or a scan has shades of its own.
   const bool painted = soup->parts.back().texture != nullptr || soup->parts.back().vertex_colors;
   const float spread = painted ? 0.0F : brightness_spread(part.kind);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const auto bits = static_cast<std::uint32_t>(pixel_hash(first + i) >> 40);  // 24 bits
     const float share = static_cast<float>(bits) * 0x1.0p-23F - 1.0F;           // −1 … 1
-    soup->brightness.push_back(1.0F + spread * share);
+    soup->finish.push_back({mesh.normals[i], 1.0F + spread * share});
   }
   for (const auto& t : mesh.triangles) {
-    soup->triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-    soup->part_of.push_back(part_index);
+    soup->triangles.push_back({{t[0] + first, t[1] + first, t[2] + first}, part_index});
   }
 }
 
 Eigen::Vector2f uv_at(const SurfaceSoup& soup, std::uint32_t triangle, Barycentric at) {
-  const auto& t = soup.triangles[triangle];
+  const auto& t = soup.triangles[triangle].vertex;
   return (1.0F - at.u - at.v) * soup.uv[t[0]] + at.u * soup.uv[t[1]] + at.v * soup.uv[t[2]];
 }
 
 }  // namespace
 
-SurfaceSoup make_surface_soup(const Scene& scene) {
+SurfaceSoup make_surface_soup(const std::vector<ScenePart>& parts) {
   SurfaceSoup soup;
-  for (const ScenePart& part : scene.parts) {
+  for (const ScenePart& part : parts) {
     if (!part.see_through && !cut(part)) add_part(part, &soup);
   }
   soup.first_cut = static_cast<std::uint32_t>(soup.triangles.size());
-  for (const ScenePart& part : scene.parts) {
+  for (const ScenePart& part : parts) {
     if (!part.see_through && cut(part)) add_part(part, &soup);
   }
   if (!soup.uv.empty()) soup.uv.resize(soup.vertices.size(), Eigen::Vector2f::Zero());
@@ -90,18 +88,18 @@ SurfaceSoup make_surface_soup(const Scene& scene) {
 }
 
 Eigen::Vector3f base_color(const SurfaceSoup& soup, std::uint32_t triangle, Barycentric at) {
-  const SurfaceSoup::Part& part = soup.parts[soup.part_of[triangle]];
+  const SurfaceSoup::Part& part = soup.parts[soup.triangles[triangle].part];
   if (part.texture != nullptr && !part.texture->color.empty()) {
     return part.texture->color_at(uv_at(soup, triangle, at));
   }
   if (!part.vertex_colors) return part.color;
-  const auto& t = soup.triangles[triangle];
+  const auto& t = soup.triangles[triangle].vertex;
   return (1.0F - at.u - at.v) * soup.colors[t[0]] + at.u * soup.colors[t[1]] +
          at.v * soup.colors[t[2]];
 }
 
 bool solid(const SurfaceSoup& soup, std::uint32_t triangle, Barycentric at) {
-  const SurfaceSoup::Part& part = soup.parts[soup.part_of[triangle]];
+  const SurfaceSoup::Part& part = soup.parts[soup.triangles[triangle].part];
   return part.texture == nullptr || part.texture->solid_at(uv_at(soup, triangle, at));
 }
 

@@ -9,7 +9,8 @@
 
 namespace canopeer {
 
-/// All triangles of a scene in one piece, with what shading needs per part.
+/// All triangles of a scene, or of one of its models, in one piece, with what shading needs per
+/// part.
 struct SurfaceSoup {
   struct Part {
     Eigen::Vector3f color;  ///< 0 … 255
@@ -19,20 +20,27 @@ struct SurfaceSoup {
     bool vertex_colors = false;              ///< `colors` holds, not `color`
   };
 
-  std::vector<Eigen::Vector3f> vertices;  ///< world
-  std::vector<Eigen::Vector3f> normals;   ///< one per vertex
-  std::vector<float> brightness;          ///< one per vertex, around 1: no surface is quite even
+  std::vector<Eigen::Vector3f> vertices;  ///< world, or the model's frame
+  /// What shading needs of a vertex, in one place: a ray's three lie anywhere in memory.
+  struct Finish {
+    Eigen::Vector3f normal;
+    float brightness = 1.0F;  ///< around 1: no surface is quite even
+  };
+  std::vector<Finish> finish;  ///< one per vertex
   /// Per vertex, empty when no part needs them.
   std::vector<Eigen::Vector2f> uv;
   std::vector<Eigen::Vector3f> colors;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::uint32_t first_cut = 0;         ///< triangles from here on have a texture with holes
-  std::vector<std::uint32_t> part_of;  ///< per triangle
+  struct Triangle {
+    std::array<std::uint32_t, 3> vertex{};
+    std::uint32_t part = 0;
+  };
+  std::vector<Triangle> triangles;
+  std::uint32_t first_cut = 0;  ///< triangles from here on have a texture with holes
   std::vector<Part> parts;
 };
 
-/// What a camera can see of the scene.
-SurfaceSoup make_surface_soup(const Scene& scene);
+/// What a camera can see of these parts.
+SurfaceSoup make_surface_soup(const std::vector<ScenePart>& parts);
 
 /// Weights of a triangle's three vertices at a hit.
 struct Barycentric {

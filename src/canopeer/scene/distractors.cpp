@@ -101,11 +101,12 @@ std::vector<ScenePart> make_distractor(const Plant& plant, int turn, Rng& rng) {
   return {};
 }
 
-ScenePart make_pipe(double x_m, double half_length_m, Rng& rng) {
+ScenePart make_pipe(double x_m, double low_y_m, double high_y_m, Rng& rng) {
   constexpr double kRadius = 0.025;
   std::vector<AxisPoint> axis;
-  for (int i = -8; i <= 8; ++i) {
-    axis.push_back({Vec3(x_m, half_length_m * i / 8.0, kRadius + 0.02), kRadius});
+  for (int i = 0; i <= 16; ++i) {
+    const double y = low_y_m + (high_y_m - low_y_m) * i / 16.0;
+    axis.push_back({Vec3(x_m, y, kRadius + 0.02), kRadius});
   }
   ScenePart part = make_part(make_tube(axis, 12), vary_color(kTerracotta, 0.04, 0.02, rng));
   part.plant = -1;

@@ -12,7 +12,7 @@ namespace canopeer {
 /// ScenePart::plant is 0. Nothing when there is no place clear of the fruits.
 std::vector<ScenePart> make_distractor(const Plant& plant, int turn, Rng& rng);
 
-/// Terracotta heating pipe on the ground along y at x, from −half_length to half_length.
-ScenePart make_pipe(double x_m, double half_length_m, Rng& rng);
+/// Terracotta heating pipe on the ground along y at x.
+ScenePart make_pipe(double x_m, double low_y_m, double high_y_m, Rng& rng);
 
 }  // namespace canopeer

@@ -25,9 +25,7 @@ constexpr std::array<Quantile, 5> kShootDistance = {
     {{0.0, 0.025}, {0.05, 0.028}, {0.5, 0.056}, {0.95, 0.071}, {1.0, 0.074}}};
 // Low places are taken more often by other shoots and fruits: they are tried more often, so that
 // the fruits that find room have the measured heights.
-constexpr double kLowRanks = 1.3;
-// Seen from the shoot; as shoots lean, about 26 of 34 are then on the −x side of the plant's base.
-constexpr double kShareTowardsMinusX = 0.85;
+constexpr double kLowRanks = 1.15;
 
 /// Two upright blocky bodies, taken as superellipsoids with exponent 3 around both their sizes.
 bool bodies_apart(const HangingFruit& a, const HangingFruit& b) {
@@ -39,13 +37,21 @@ bool bodies_apart(const HangingFruit& a, const HangingFruit& b) {
   return d.norm() >= kSpacing && r * r * r + z * z * z >= 1.0;
 }
 
+double draw_height(const PlantKind& kind, Rng& rng) {
+  const double rank = rng.uniform();
+  if (kind.fruit_high_m > 0.0) {
+    return kind.fruit_low_m + rank * (kind.fruit_high_m - kind.fruit_low_m);
+  }
+  return value_at_rank(kCentreHeight, std::pow(rank, kLowRanks));
+}
+
 /// One attempt to hang a fruit somewhere on the plant.
-std::optional<HangingFruit> try_hang(const std::vector<Shoot>& shoots, Ripeness ripeness,
-                                     Rng& rng) {
+std::optional<HangingFruit> try_hang(const PlantKind& kind, const std::vector<Shoot>& shoots,
+                                     Ripeness ripeness, Rng& rng) {
   HangingFruit fruit;
   fruit.ripeness = ripeness;
   fruit.form = draw_fruit(ripeness, rng);
-  const double z = value_at_rank(kCentreHeight, std::pow(rng.uniform(), kLowRanks));
+  const double z = draw_height(kind, rng);
   if (z - 0.5 * fruit.form.length_m < kLeastTail) return std::nullopt;
   const Shoot& shoot = shoots[rng.index(shoots.size())];
   const double s_pedicel = shoot.reach_height(z + 0.5 * fruit.form.length_m + kPedicelAboveTop);
@@ -56,7 +62,7 @@ std::optional<HangingFruit> try_hang(const std::vector<Shoot>& shoots, Ripeness 
   // A fat fruit cannot hang nearer to the shoot than its own radius.
   const double clear = 0.5 * fruit.form.diameter_m + shoot.at(s_centre).radius_m;
   const double distance = std::max(value_at_rank(kShootDistance, rng.uniform()), clear);
-  const double around = rng.chance(kShareTowardsMinusX) ? kPi : 0.0;
+  const double around = rng.chance(kind.minus_x_share) ? kPi : 0.0;
   const double azimuth = around + rng.uniform(-0.5 * kPi, 0.5 * kPi);
   const Vec3 centre =
       shoot.at(s_centre).position + distance * Vec3(std::cos(azimuth), std::sin(azimuth), 0.0);
@@ -73,10 +79,10 @@ std::optional<HangingFruit> try_hang(const std::vector<Shoot>& shoots, Ripeness 
 }
 
 /// Hangs one more fruit beside those already there; false when there is no room left.
-bool hang_one(const std::vector<Shoot>& shoots, Ripeness ripeness, Rng& rng,
+bool hang_one(const PlantKind& kind, const std::vector<Shoot>& shoots, Ripeness ripeness, Rng& rng,
               std::vector<HangingFruit>* fruits) {
   for (int attempt = 0; attempt < 400; ++attempt) {
-    const auto fruit = try_hang(shoots, ripeness, rng);
+    const auto fruit = try_hang(kind, shoots, ripeness, rng);
     if (fruit && std::all_of(fruits->begin(), fruits->end(),
                              [&](const HangingFruit& f) { return bodies_apart(f, *fruit); })) {
       fruits->push_back(*fruit);
@@ -98,7 +104,7 @@ std::vector<HangingFruit> hang_fruits(const PlantKind& kind, const std::vector<S
       const Ripeness ripeness = i >= kind.counted_fruits ? Ripeness::green
                                 : rng.chance(0.7)        ? Ripeness::ripe
                                                          : Ripeness::turning;
-      room = hang_one(shoots, ripeness, rng, &fruits);
+      room = hang_one(kind, shoots, ripeness, rng, &fruits);
     }
     if (room) return fruits;
   }

@@ -6,6 +6,9 @@
 
 namespace canopeer {
 
+/// "green", "turning" or "ripe".
+const char* ripeness_name(Ripeness ripeness);
+
 /// One row per fruit in the order of ids, with the header
 /// `id,class,counted,x_m,y_m,z_m,length_m,diameter_m,volume_cm3,surface_cm2,plant`;
 /// class is green, turning or ripe, counted 1 or 0. An imported scene has `hull_volume_cm3` in

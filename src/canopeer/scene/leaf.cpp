@@ -41,6 +41,22 @@ const LeafRow& row_for(double below_tip_m) {
                        [&](const LeafRow& row) { return below_tip_m < row.below_tip_m; });
 }
 
+/// Roll from a standard normal deviate. The youngest leaves stand on edge about the tip; of the old
+/// ones most lie level across and a few hang on edge, as the shares of steep leaf area show.
+double roll_of(double below_tip_m, double x) {
+  if (below_tip_m < 0.02) return 0.8 * x;
+  if (below_tip_m < 0.12) return 0.45 * x;
+  return below_tip_m < 0.3 ? 0.15 * x : 0.10 * x * (1.0 + 1.0 * x * x);
+}
+
+/// What must vary beside the two lengths of a pair for both together to have the relative standard
+/// deviation `total`.
+double pair_spread(double total, double ratio) {
+  const double half_difference = (1.0 - ratio) / (1.0 + ratio);
+  const double pair = half_difference * half_difference;
+  return std::sqrt(std::max(0.0025, (total * total - pair) / (1.0 + pair)));
+}
+
 /// Half width over half the largest width at share t of the midrib: ovate, round at the base,
 /// pointed at the tip, so that the blade's area is 0.73 · length · width.
 double outline(double t) {
@@ -93,9 +109,11 @@ LeafForm draw_leaf(double below_tip_m, bool in_pair, bool second, Rng& rng) {
   LeafForm leaf;
   if (in_pair) {
     // The table's mean is over both leaves of a pair, lengths 1 : 0.45.
-    const double first_cm = row.length_cm / 0.725;
-    leaf.length_m =
-        0.01 * first_cm * (second ? 0.45 : 1.0) * clipped_normal(rng, 1, 0.12, 0.7, 1.3);
+    constexpr double kRatio = 0.45;
+    const double first_cm = row.length_cm / (0.5 + 0.5 * kRatio);
+    const double sd = pair_spread(row.length_sd_cm / row.length_cm, kRatio);
+    leaf.length_m = 0.01 * first_cm * (second ? kRatio : 1.0) *
+                    clipped_normal(rng, 1.0, sd, 1.0 - 2.0 * sd, 1.0 + 2.0 * sd);
   } else {
     leaf.length_m = 0.01 * clipped_normal(rng, row.length_cm, row.length_sd_cm,
                                           row.length_cm - 2.0 * row.length_sd_cm,
@@ -104,15 +122,16 @@ LeafForm draw_leaf(double below_tip_m, bool in_pair, bool second, Rng& rng) {
   leaf.width_m = leaf.length_m * clipped_normal(rng, 0.59, 0.07, 0.45, 0.75);
   leaf.petiole_m =
       leaf.length_m * row.petiole_cm / row.length_cm * clipped_normal(rng, 1.0, 0.15, 0.6, 1.4);
-  const double up = second ? 25.0 : 0.0;  // the small leaf of a pair points up
+  // The small leaf of a pair points up; the table's mean is over both.
+  const double up = !in_pair ? 0.0 : second ? 12.5 : -12.5;
   leaf.petiole_pitch_rad =
       kDegree * std::clamp(row.petiole_pitch_deg + up + rng.normal(0.0, 12.0), -45.0, 85.0);
   leaf.blade_pitch_rad =
       kDegree * clipped_normal(rng, row.blade_pitch_deg + up, row.blade_pitch_sd_deg, -85.0, 80.0);
-  leaf.bend_rad = clipped_normal(rng, 1.15, 0.25, 0.5, 1.8);
-  leaf.roll_rad = rng.normal(0.0, 0.20);
-  leaf.twist_rad = rng.normal(0.0, 0.25);
-  leaf.fold_rad = clipped_normal(rng, 0.30, 0.12, 0.0, 0.7);
+  leaf.bend_rad = clipped_normal(rng, 1.40, 0.25, 0.75, 2.05);
+  leaf.roll_rad = roll_of(below_tip_m, rng.normal(0.0, 1.0));
+  leaf.twist_rad = rng.normal(0.0, 0.32);
+  leaf.fold_rad = clipped_normal(rng, 0.21, 0.12, -0.1, 0.6);
   leaf.cup = clipped_normal(rng, 0.12, 0.10, -0.1, 0.35);
   leaf.ripple_phase_rad = rng.uniform(0.0, 2.0 * kPi);
   return leaf;

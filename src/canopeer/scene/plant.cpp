@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "canopeer/scene/foliage.h"
 #include "canopeer/scene/plant_colors.h"
 
 namespace canopeer {
@@ -53,11 +52,11 @@ Plant grow_plant(const PlantKind& kind, Rng& rng) {
   Plant plant;
   plant.shoots = grow_shoots(kind, rng);
   const auto fruits = hang_fruits(kind, plant.shoots, rng);
-  const auto leaves = place_leaves(kind, plant.shoots, fruits, rng);
+  plant.leaves = place_leaves(kind, plant.shoots, fruits, rng);
   for (const Shoot& shoot : plant.shoots) {
     plant.parts.push_back(make_part(make_tube(shoot.axis, 8), PartClass::stem, stem_color(rng)));
   }
-  for (const PlacedLeaf& leaf : leaves) add_leaf(leaf, rng, &plant);
+  for (const PlacedLeaf& leaf : plant.leaves) add_leaf(leaf, rng, &plant);
   for (const HangingFruit& fruit : fruits) add_fruit(fruit, rng, &plant);
   return plant;
 }

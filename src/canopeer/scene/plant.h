@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "canopeer/base/rng.h"
+#include "canopeer/scene/foliage.h"
 #include "canopeer/scene/fruit_cluster.h"
 #include "canopeer/scene/plant_kind.h"
 #include "canopeer/scene/scene.h"
@@ -16,6 +17,7 @@ struct Plant {
   std::vector<ScenePart> parts;
   std::vector<FruitTruth> fruits;
   std::vector<Shoot> shoots;
+  std::vector<PlacedLeaf> leaves;     ///< in the order of the parts: a blade, then its petiole
   std::vector<HangingFruit> hanging;  ///< hanging[i] is fruits[i]
 };
 

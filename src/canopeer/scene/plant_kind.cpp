@@ -3,6 +3,7 @@
 #include <array>
 
 #include "canopeer/base/check.h"
+#include "canopeer/scene/statistics.h"
 
 namespace canopeer {
 
@@ -22,6 +23,52 @@ PlantKind plant_kind(int number) {
       {9, 0.72, 1, 0, 0.0088, 0.70, 22, 0.170, 0, 1},
   }};
   return kKinds[static_cast<std::size_t>(number - 1)];
+}
+
+namespace {
+
+PlantKind draw_dense(Rng& rng) {
+  PlantKind kind;
+  kind.number = 0;
+  kind.height_m = rng.uniform(2.1, 2.9);
+  kind.stems = 2;
+  kind.stem_radius_m = rng.uniform(0.010, 0.012);
+  kind.shoot_length_m = 2.0 * (kind.height_m - 0.04);
+  kind.leaf_area_m2 = 3.15 * clipped_normal(rng, 1.0, 0.08, 0.8, 1.2);
+  // Leaves as large as those of the measured plants' middle and lower shoots, 120 cm², and more.
+  kind.leaves = static_cast<int>(kind.leaf_area_m2 / 0.0145);
+  kind.counted_fruits = 9 + static_cast<int>(rng.index(5));
+  kind.green_fruits = 2 + static_cast<int>(rng.index(3));
+  kind.string_m = 3.1;
+  kind.fruit_low_m = 0.30;
+  kind.fruit_high_m = kind.height_m - 0.55;
+  kind.minus_x_share = 0.5;
+  return kind;
+}
+
+PlantKind draw_seedling(Rng& rng) {
+  PlantKind kind = plant_kind(1 + static_cast<int>(rng.index(2)));
+  const double size = rng.uniform(0.85, 1.15);
+  kind.height_m *= size;
+  kind.shoot_length_m *= size;
+  kind.leaf_area_m2 *= size * size;
+  return kind;
+}
+
+}  // namespace
+
+PlantKind draw_plant_kind(PlantPreset preset, int number, Rng& rng) {
+  switch (preset) {
+    case PlantPreset::numbered:
+      break;
+    case PlantPreset::paper:
+      return plant_kind(3 + static_cast<int>(rng.index(7)));
+    case PlantPreset::dense:
+      return draw_dense(rng);
+    case PlantPreset::seedling:
+      return draw_seedling(rng);
+  }
+  return plant_kind(number);
 }
 
 }  // namespace canopeer

@@ -15,7 +15,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kStep = 0.015;  // between axis points
 constexpr double kTipRadius = 0.0005;
-constexpr double kForkTipRise = 0.03;
+constexpr double kForkTipRise = 0.05;
+constexpr double kLowestFork = 0.10;
 
 // Radius over base radius along the shoot, as measured on plants 3–6.
 constexpr std::array<Quantile, 5> kTaper = {
@@ -40,17 +41,24 @@ Shoot make_shoot(const Vec3& base, const Vec3& along, double length, double base
 }
 
 Shoot grow_stem(const PlantKind& kind, int index, double length, double azimuth, Rng& rng) {
-  const double lean = kind.stems == 1 ? rng.uniform(0.03, 0.14) : rng.uniform(0.08, 0.22);
+  // A string leads a shoot up nearly straight.
+  const bool led = kind.string_m > 0.0;
+  const double lean = led               ? rng.uniform(0.04, 0.08)
+                      : kind.stems == 1 ? rng.uniform(0.03, 0.14)
+                                        : rng.uniform(0.08, 0.22);
   const Vec3 along = std::cos(lean) * Vec3::UnitZ() + std::sin(lean) * horizontal(azimuth);
-  const double bend = length * rng.uniform(0.012, 0.045);
-  const Vec3 base = index == 0 ? Vec3(Vec3::Zero()) : Vec3(0.03 * horizontal(azimuth));
+  const double bend = (led ? 0.3 : 1.0) * length * rng.uniform(0.012, 0.045);
+  const double offset = led ? 0.05 : index == 0 ? 0.0 : 0.03;
+  const Vec3 base = offset * horizontal(azimuth);
   return make_shoot(base, along, length, kind.stem_radius_m * rng.uniform(0.9, 1.1),
                     bend * horizontal(rng.uniform(0.0, 2.0 * kPi)),
                     0.4 * bend * horizontal(rng.uniform(0.0, 2.0 * kPi)));
 }
 
 Shoot grow_fork(const Shoot& stem, double length, double azimuth, Rng& rng) {
-  const double s = rng.uniform(0.12, 0.30);
+  // A long fork leaves low: its tip comes no higher than its stem's.
+  const double highest = std::max(kLowestFork, stem.length_m - 0.97 * length);
+  const double s = std::min(rng.uniform(0.12, 0.30), highest);
   const AxisPoint start = stem.at(std::min(s, 0.5 * stem.length_m));
   const double lean = rng.uniform(0.14, 0.31);
   const Vec3 along = std::cos(lean) * Vec3::UnitZ() + std::sin(lean) * horizontal(azimuth);
@@ -97,7 +105,8 @@ std::vector<Shoot> grow_shoots(const PlantKind& kind, Rng& rng) {
       kind.forks == 0 ? kind.shoot_length_m / kind.stems : 1.01 * (kind.height_m - kForkTipRise);
   std::vector<Shoot> shoots;
   std::vector<double> azimuths;
-  const double first = rng.uniform(0.0, 2.0 * kPi);
+  // Strings lead the shoots of a plant to either side of the row (V system); rows run along y.
+  const double first = kind.string_m > 0.0 ? 0.0 : rng.uniform(0.0, 2.0 * kPi);
   for (int i = 0; i < kind.stems; ++i) {
     azimuths.push_back(first + 2.0 * kPi * i / kind.stems + rng.normal(0.0, 0.3));
     const double share = kind.stems == 1 ? 1.0 : rng.uniform(0.96, 1.04);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "canopeer/robot/exact_checker.h"
@@ -18,8 +20,8 @@ struct Verdict {
 /// plants.
 class MotionJudge {
  public:
-  /// `step_m`: between two states looked at no point of the arm moves farther. `robot` outlives the
-  /// judge.
+  /// `step_m`: between two states looked at no point of the arm moves farther. `robot` and `scene`
+  /// outlive the judge.
   MotionJudge(const RobotModel& robot, const Scene& scene, double step_m = 0.01);
 
   /// Motion along the waypoints with the trolley at rest; `map`: what is known when it starts, or
@@ -30,9 +32,20 @@ class MotionJudge {
   [[nodiscard]] const ExactChecker& checker() const { return checker_; }
 
  private:
+  /// The plants within the arm's reach from where the trolley stands: a long row as a whole would
+  /// not fit into memory.
+  struct Near {
+    TrolleyState trolley;
+    MeshObstacles plants;
+  };
+  [[nodiscard]] std::shared_ptr<const Near> plants_near(const TrolleyState& trolley) const;
+
   double step_rad_;
+  const RobotModel& robot_;
+  const Scene& scene_;
   ExactChecker checker_;
-  MeshObstacles plants_;
+  mutable std::mutex mutex_;  // of near_
+  mutable std::shared_ptr<const Near> near_;
 };
 
 }  // namespace canopeer

@@ -7,12 +7,33 @@
 #include "canopeer/robot/straight_timing.h"
 
 namespace canopeer {
+namespace {
+
+RgbdSensorOptions sensor_options(const SimulationOptions& options) {
+  RgbdSensorOptions sensor = options.sensor;
+  sensor.intrinsics = options.camera;
+  sensor.seed = options.seed;
+  return sensor;
+}
+
+}  // namespace
 
 /// The one world all ports act on.
 struct Simulation::State {
+  State(const RobotModel& model, const Scene& scene, const Configuration& start,
+        const TrolleyState& place, const SimulationOptions& o)
+      : robot(model),
+        options(o),
+        renderer(scene),
+        sensor(renderer, scene, sensor_options(o)),
+        judge(model, scene),
+        q(start),
+        trolley(place) {}
+
   const RobotModel& robot;
   SimulationOptions options;
   Renderer renderer;
+  RgbdSensor sensor;
   MotionJudge judge;
   const VoxelMap* map = nullptr;
   double now_s = 0.0;
@@ -113,25 +134,21 @@ class Simulation::SimCamera : public Camera {
   explicit SimCamera(State& state) : state_(state) {}
 
   Expected<RgbdFrame> capture() override {
-    RgbdFrame frame;
+    RgbdFrame frame = state_.sensor.capture(
+        state_.robot.T_world_base(state_.trolley) * state_.robot.T_base_camera(state_.q),
+        frames_++);
     frame.time_s = state_.now_s;
-    frame.intrinsics = state_.options.camera;
-    frame.T_world_camera =
-        state_.robot.T_world_base(state_.trolley) * state_.robot.T_base_camera(state_.q);
-    RenderedView view = state_.renderer.render(frame.intrinsics, frame.T_world_camera);
-    frame.depth = std::move(view.depth);
-    frame.color = std::move(view.color);
     return frame;
   }
 
  private:
   State& state_;
+  std::uint64_t frames_ = 0;
 };
 
 Simulation::Simulation(const RobotModel& robot, const Scene& scene, const Configuration& q,
                        const TrolleyState& trolley, const SimulationOptions& options)
-    : state_(new State{robot, options, Renderer(scene), MotionJudge(robot, scene), nullptr, 0.0, q,
-                       trolley}),
+    : state_(new State(robot, scene, q, trolley, options)),
       clock_(std::make_unique<SimClock>(*state_)),
       arm_(std::make_unique<SimArm>(*state_)),
       trolley_(std::make_unique<SimTrolley>(*state_)),

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "canopeer/mission/ports.h"
+#include "canopeer/render/rgbd_sensor.h"
 #include "canopeer/scene/scene.h"
 #include "canopeer/sim/motion_judge.h"
 
@@ -12,6 +13,8 @@ namespace canopeer {
 struct SimulationOptions {
   CameraIntrinsics camera =
       CameraIntrinsics::from_fov(640, 480, 80.0 / 180.0 * 3.14159265358979323846);
+  /// Lens and faults of the camera; its intrinsics and seed are taken from here, not from there.
+  RgbdSensorOptions sensor;
   /// Standard deviation of where each joint stops beside its goal, rad; the arm knows where it
   /// stopped.
   double arrival_error_rad = 0.0;
