@@ -34,6 +34,18 @@ void Perception::move_field(const Vec3& base_world) {
   field_->rebuild(map_);
 }
 
+// The map changes in observe() only, so an index of the same region has missed nothing.
+FrontierTargets Perception::targets(const Box& region_world, const std::vector<BlockKey>& changed) {
+  const bool kept = frontiers_ && frontiers_->world().min() == region_world.min() &&
+                    frontiers_->world().max() == region_world.max();
+  if (kept) {
+    frontiers_->update(map_, changed);
+  } else {
+    frontiers_.emplace(region_world, map_.resolution_m()).rebuild(map_);
+  }
+  return frontiers_->targets();
+}
+
 Expected<Observation> Perception::observe(const RgbdFrame& frame, const Box& region_world,
                                           WorkMeter& work, StageTimer& timer) {
   if (!detector_) {
@@ -50,7 +62,7 @@ Expected<Observation> Perception::observe(const RgbdFrame& frame, const Box& reg
       timer.time("fuse", [&] { return fuse(map_, frame, detection.fruit, options_.fusion); });
   timer.time("distance field", [&] { field_->update(map_, seen.fused.changed); });
   seen.change.targets =
-      timer.time("targets", [&] { return extract_frontiers(map_, region_world); });
+      timer.time("targets", [&] { return targets(region_world, seen.fused.changed); });
   seen.change.blocks = seen.fused.changed;
   timer.time("fruit map", [&] {
     fruits_.add(frame, detection.fruit);

@@ -8,7 +8,7 @@
 #include "canopeer/detect/pixel_score.h"
 #include "canopeer/fruit/fruit_map.h"
 #include "canopeer/map/distance_field.h"
-#include "canopeer/map/frontier.h"
+#include "canopeer/map/frontier_index.h"
 #include "canopeer/map/fusion.h"
 #include "canopeer/mission/mission_options.h"
 #include "canopeer/mission/stage_timer.h"
@@ -19,7 +19,8 @@ namespace canopeer {
 /// What one frame taught.
 struct Observation {
   FuseResult fused;
-  std::optional<PixelCounts> pixels;  ///< fruit pixels found against the frame's labels, if it has any
+  std::optional<PixelCounts>
+      pixels;  ///< fruit pixels found against the frame's labels, if it has any
   MapChange change;
 };
 
@@ -32,21 +33,24 @@ class Perception {
   /// The robot stands somewhere new: distances are wanted around its base from now on.
   void move_field(const Vec3& base_world);
 
-  /// Detects, fuses, and re-extracts the targets inside `region_world`. The fruit map, which nobody
-  /// plans with, is brought up to date aside: its work is not counted. The error is the
+  /// Detects, fuses, and brings the targets inside `region_world` up to date. The fruit map, which
+  /// nobody plans with, is brought up to date aside: its work is not counted. The error is the
   /// detector's, which is made with the first frame.
   Expected<Observation> observe(const RgbdFrame& frame, const Box& region_world, WorkMeter& work,
-                      StageTimer& timer);
+                                StageTimer& timer);
 
   [[nodiscard]] const VoxelMap& map() const { return map_; }
   [[nodiscard]] const DistanceField& field() const { return *field_; }
   [[nodiscard]] const FruitMap& fruits() const { return fruits_; }
 
  private:
+  FrontierTargets targets(const Box& region_world, const std::vector<BlockKey>& changed);
+
   MissionOptions options_;
   std::unique_ptr<Detector> detector_;  // null before the first frame
   VoxelMap map_;
   std::optional<DistanceField> field_;
+  std::optional<FrontierIndex> frontiers_;  // of the region asked for last
   FruitMap fruits_;
 };
 
