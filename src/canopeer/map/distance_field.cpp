@@ -19,7 +19,11 @@ int floor_div(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
 }  // namespace
 
 DistanceField::DistanceField(const DistanceFieldOptions& options, double resolution_m)
-    : world_(options.world), resolution_m_(resolution_m), truncation_m_(options.truncation_m) {
+    : world_(options.world),
+      resolution_m_(resolution_m),
+      truncation_m_(options.truncation_m),
+      unknown_blocks_(options.unknown_blocks),
+      assumed_free_(options.assumed_free) {
   CANOPEER_CHECK(!world_.isEmpty() && world_.sizes().allFinite(),
                  "a distance field needs a finite box");
   reach_ = static_cast<int>(std::ceil(truncation_m_ / resolution_m_ - 1e-9));
@@ -59,13 +63,27 @@ float DistanceField::distance(const Vec3& p_world) const {
   return root_m_[static_cast<std::size_t>(tile[static_cast<std::size_t>(cell)])];
 }
 
+/// The voxels of a block that are to be kept away from; `block`: null when never observed.
+VoxelMask DistanceField::blocked(BlockKey key, const BlockMasks* block) const {
+  if (!unknown_blocks_) return block != nullptr ? block->occupied : VoxelMask{};
+  VoxelMask unknown = VoxelMask::all();
+  if (block != nullptr) unknown -= block->observed;
+  if (!assumed_free_.isEmpty() && unknown.any()) {
+    VoxelMask free;
+    for_each_voxel(key, unknown, [&](const VoxelIndex& voxel) {
+      if (assumed_free_.contains(voxel_centre(voxel, resolution_m_))) free.set(voxel);
+    });
+    unknown -= free;
+  }
+  if (block != nullptr) unknown |= block->occupied;
+  return unknown;
+}
+
 bool DistanceField::take_over(const VoxelMap& map, BlockKey key) {
   const VoxelIndex cell = block_index(key) - first_block_ + VoxelIndex::Constant(halo_);
   if ((cell.array() < 0).any() || (cell.array() >= grid_size_.array()).any()) return false;
-  VoxelMask& own = occupied_[static_cast<std::size_t>(
-      (cell.z() * grid_size_.y() + cell.y()) * grid_size_.x() + cell.x())];
-  const BlockMasks* block = map.block(key);
-  const VoxelMask now = block != nullptr ? block->occupied : VoxelMask{};
+  VoxelMask& own = occupied_[cell_number(cell)];
+  const VoxelMask now = blocked(key, map.block(key));
   if (own == now) return false;
   own = now;
   return true;
@@ -117,6 +135,17 @@ void DistanceField::update(const VoxelMap& map, const std::vector<BlockKey>& cha
 void DistanceField::rebuild(const VoxelMap& map) {
   CANOPEER_CHECK(map.resolution_m() == resolution_m_, "map and field differ in resolution");
   std::fill(occupied_.begin(), occupied_.end(), VoxelMask{});
+  if (unknown_blocks_) {
+    VoxelIndex cell;
+    for (cell.z() = 0; cell.z() < grid_size_.z(); ++cell.z()) {
+      for (cell.y() = 0; cell.y() < grid_size_.y(); ++cell.y()) {
+        for (cell.x() = 0; cell.x() < grid_size_.x(); ++cell.x()) {
+          const VoxelIndex block = cell + first_block_ - VoxelIndex::Constant(halo_);
+          take_over(map, pack_block(block.x(), block.y(), block.z()));
+        }
+      }
+    }
+  }
   for (const BlockKey key : map.block_keys()) take_over(map, key);
   compute(std::vector<std::uint8_t>(distance2_.size(), 1));
 }
