@@ -113,6 +113,7 @@ void read_execution(YamlMap execution, VmpOptions& o) {
 void read_collision(YamlMap collision, CollisionOptions& o) {
   o.map_padding_m = collision.number("map_padding_m", o.map_padding_m, {0.0, 0.5});
   o.self_padding_m = collision.number("self_padding_m", o.self_padding_m, {0.0, 0.5});
+  o.unknown_blocks = collision.choice("unknown", "free", {"free", "blocked"}) == "blocked";
 }
 
 Expected<CostTable> find_cost_table(const std::string& name, const fs::path& mission_dir,

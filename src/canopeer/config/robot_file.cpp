@@ -40,12 +40,15 @@ Box read_box(YamlMap box) {
 }
 
 Configuration to_configuration(const std::vector<double>& values) {
-  return Eigen::Map<const Configuration>(values.data(), static_cast<int>(values.size()));
+  // Another count than that of the joints is refused by RobotModel::make.
+  const int count = std::min(static_cast<int>(values.size()), kMaxArmJoints);
+  return Eigen::Map<const Configuration>(values.data(), count);
 }
 
 struct RobotFile {
   std::filesystem::path urdf;
   std::filesystem::path srdf;  // empty: none
+  std::vector<std::filesystem::path> package_path;
   RobotSetup setup;
   std::vector<double> arm_acceleration_limits;
   double trolley_acceleration_limit = 0.0;
@@ -61,6 +64,8 @@ Expected<RobotFile> read_keys(const std::filesystem::path& path) {
   (void)yaml.text("name", "");
   file.urdf = yaml.directory() / yaml.required_text("urdf");
   if (yaml.has("srdf")) file.srdf = yaml.directory() / yaml.text("srdf", "");
+  for (const std::string& folder : yaml.text_or_texts("package_path", {}))
+    file.package_path.push_back(yaml.directory() / folder);
   setup.base_link = yaml.required_text("base_link");
   setup.camera_frame = yaml.required_text("camera_frame");
   if (!yaml.has("arm_joints")) (void)yaml.required_text("arm_joints");
@@ -70,6 +75,10 @@ Expected<RobotFile> read_keys(const std::filesystem::path& path) {
   setup.T_world_root = read_pose(yaml.map("world_to_root"));
   if (yaml.has("camera_mounting")) file.T_frame_camera = read_pose(yaml.map("camera_mounting"));
 
+  if (setup.arm_joints.size() > kMaxArmJoints) {
+    yaml.complain("arm_joints", "expected at most " + std::to_string(kMaxArmJoints) + " joints");
+    setup.arm_joints.resize(kMaxArmJoints);
+  }
   const std::size_t dof = setup.arm_joints.size();
   file.arm_acceleration_limits = yaml.numbers("arm_acceleration_limits_rad_s2",
                                               std::vector<double>(dof, 1.0), dof, {1e-3, 1e3});
@@ -79,6 +88,7 @@ Expected<RobotFile> read_keys(const std::filesystem::path& path) {
   YamlMap homes = yaml.map("home_states_rad");
   for (const std::string& name : homes.keys())
     setup.home[name] = to_configuration(homes.required_numbers(name, dof));
+  if (yaml.has("known_free")) setup.known_free = read_box(yaml.map("known_free"));
   for (YamlMap& side : yaml.maps("sides")) {
     setup.workspace.push_back(read_box(side.required_map("workspace")));
     setup.sampling_region.push_back(read_box(side.required_map("sampling_region")));
@@ -122,7 +132,7 @@ Expected<RobotModel> load_robot(const std::filesystem::path& path,
                                 const std::optional<Pose>& T_frame_camera) {
   auto file = read_keys(path);
   if (!file) return fail(file.error().message);
-  auto robot = read_urdf(file->urdf);
+  auto robot = read_urdf(file->urdf, file->package_path);
   if (!robot) return fail(robot.error().message);
   if (!file->srdf.empty()) {
     if (auto read = read_srdf(file->srdf, *robot); !read) return fail(read.error().message);

@@ -71,35 +71,50 @@ Pose to_pose(const urdf::Pose& pose) {
   return T;
 }
 
-Expected<CollisionShape> to_shape(const urdf::Collision& collision) {
-  const Pose T = to_pose(collision.origin);
-  if (collision.geometry == nullptr) return fail("a collision element without geometry");
-  switch (collision.geometry->type) {
+Expected<CollisionShape> to_shape(const urdf::GeometrySharedPtr& geometry, const urdf::Pose& origin,
+                                  const MeshSearch& search) {
+  const Pose T = to_pose(origin);
+  if (geometry == nullptr) return fail("a shape without geometry");
+  Expected<CollisionShape> shape = fail("unknown geometry");
+  switch (geometry->type) {
     case urdf::Geometry::BOX: {
-      const auto& box = dynamic_cast<const urdf::Box&>(*collision.geometry);
-      return CollisionShape::box({box.dim.x, box.dim.y, box.dim.z}, T);
+      const auto& box = dynamic_cast<const urdf::Box&>(*geometry);
+      shape = CollisionShape::box({box.dim.x, box.dim.y, box.dim.z}, T);
+      break;
     }
     case urdf::Geometry::CYLINDER: {
-      const auto& cylinder = dynamic_cast<const urdf::Cylinder&>(*collision.geometry);
-      return CollisionShape::cylinder(cylinder.radius, cylinder.length, T);
+      const auto& cylinder = dynamic_cast<const urdf::Cylinder&>(*geometry);
+      shape = CollisionShape::cylinder(cylinder.radius, cylinder.length, T);
+      break;
     }
     case urdf::Geometry::SPHERE:
-      return CollisionShape::sphere(dynamic_cast<const urdf::Sphere&>(*collision.geometry).radius,
-                                    T);
-    case urdf::Geometry::MESH:
-      return fail("mesh collision shapes are not supported yet: use boxes, cylinders or spheres");
+      shape = CollisionShape::sphere(dynamic_cast<const urdf::Sphere&>(*geometry).radius, T);
+      break;
+    case urdf::Geometry::MESH: {
+      const auto& mesh = dynamic_cast<const urdf::Mesh&>(*geometry);
+      return load_mesh_shape(mesh.filename, {mesh.scale.x, mesh.scale.y, mesh.scale.z}, T, search);
+    }
   }
-  return fail("unknown collision geometry");
+  if (shape && !(shape->size_m.minCoeff() > 0.0)) return fail("a shape without size");
+  return shape;
 }
 
-Expected<Link> to_link(const urdf::Link& from) {
+Expected<Link> to_link(const urdf::Link& from, const MeshSearch& search,
+                       std::vector<std::string>& notices) {
   Link link;
   link.name = from.name;
   for (const auto& collision : from.collision_array) {
-    auto shape = to_shape(*collision);
+    auto shape = to_shape(collision->geometry, collision->origin, search);
     if (!shape) return fail(shape.error().message);
-    if (shape->size_m.minCoeff() <= 0.0) return fail("a collision shape without size");
-    link.collision.push_back(*shape);
+    link.collision.push_back(std::move(*shape));
+  }
+  for (const auto& visual : from.visual_array) {
+    auto shape = to_shape(visual->geometry, visual->origin, search);
+    if (shape) {
+      link.visual.push_back(std::move(*shape));
+    } else {
+      notices.push_back("link '" + link.name + "', visual: " + shape.error().message);
+    }
   }
   return link;
 }
@@ -139,7 +154,8 @@ Expected<Joint> to_joint(const urdf::Joint& from) {
 
 }  // namespace
 
-Expected<RobotDescription> parse_urdf(const std::string& xml, const std::string& name) {
+Expected<RobotDescription> parse_urdf(const std::string& xml, const std::string& name,
+                                      const MeshSearch& search) {
   tinyxml2::XMLDocument document;
   if (auto parsed = parse_xml(xml, name, "robot", document); !parsed)
     return fail(parsed.error().message);
@@ -154,7 +170,7 @@ Expected<RobotDescription> parse_urdf(const std::string& xml, const std::string&
   RobotDescription robot;
   robot.name = model->getName();
   for (const auto& [link_name, from] : model->links_) {
-    auto link = to_link(*from);
+    auto link = to_link(*from, search, robot.notices);
     if (!link)
       return fail(xml_place(name, find_named(document, "link", link_name)) + ": link '" +
                   link_name + "': " + link.error().message);
@@ -170,10 +186,11 @@ Expected<RobotDescription> parse_urdf(const std::string& xml, const std::string&
   return robot;
 }
 
-Expected<RobotDescription> read_urdf(const std::filesystem::path& path) {
+Expected<RobotDescription> read_urdf(const std::filesystem::path& path,
+                                     const std::vector<std::filesystem::path>& package_path) {
   auto xml = read_file(path);
   if (!xml) return fail(xml.error().message);
-  return parse_urdf(*xml, path.string());
+  return parse_urdf(*xml, path.string(), {path.parent_path(), package_path});
 }
 
 }  // namespace canopeer

@@ -22,7 +22,8 @@ DistanceField::DistanceField(const DistanceFieldOptions& options, double resolut
     : world_(options.world),
       resolution_m_(resolution_m),
       truncation_m_(options.truncation_m),
-      to_(options.to) {
+      to_(options.to),
+      assumed_free_(options.assumed_free) {
   CANOPEER_CHECK(!world_.isEmpty() && world_.sizes().allFinite(),
                  "a distance field needs a finite box");
   reach_ = static_cast<int>(std::ceil(truncation_m_ / resolution_m_ - 1e-9));
@@ -37,25 +38,47 @@ DistanceField::DistanceField(const DistanceFieldOptions& options, double resolut
     return static_cast<std::size_t>(size.x()) * static_cast<std::size_t>(size.y()) *
            static_cast<std::size_t>(size.z());
   };
-  occupied_.resize(volume(grid_size_), obstacles(nullptr));
+  occupied_.resize(volume(grid_size_));
   distance2_.resize(volume(tiles_));
   for (int d2 = 0; d2 <= reach_ * reach_; ++d2) {
     root_m_.push_back(static_cast<float>(std::min(std::sqrt(d2) * resolution_m_, truncation_m_)));
   }
+  forget();
   // Nothing is known yet, and that may be what distances are to.
   if (to_ == DistanceTo::occupied_or_unknown) {
     compute(std::vector<std::uint8_t>(distance2_.size(), 1));
   }
 }
 
-VoxelMask DistanceField::obstacles(const BlockMasks* block) const {
-  const bool to_unknown = to_ == DistanceTo::occupied_or_unknown;
-  if (block == nullptr) return to_unknown ? VoxelMask::all() : VoxelMask{};
-  if (to_ == DistanceTo::roi) return block->roi;
-  if (!to_unknown) return block->occupied;
-  VoxelMask mask = VoxelMask::all();
-  mask -= block->observed;
-  mask |= block->occupied;
+void DistanceField::forget() {
+  const VoxelIndex shift = first_block_ - VoxelIndex::Constant(halo_);
+  VoxelIndex cell;
+  for (cell.z() = 0; cell.z() < grid_size_.z(); ++cell.z()) {
+    for (cell.y() = 0; cell.y() < grid_size_.y(); ++cell.y()) {
+      for (cell.x() = 0; cell.x() < grid_size_.x(); ++cell.x()) {
+        const VoxelIndex block = cell + shift;
+        occupied_[cell_number(cell)] =
+            obstacles(pack_block(block.x(), block.y(), block.z()), nullptr);
+      }
+    }
+  }
+}
+
+VoxelMask DistanceField::obstacles(BlockKey key, const BlockMasks* block) const {
+  if (to_ == DistanceTo::roi) return block != nullptr ? block->roi : VoxelMask{};
+  VoxelMask mask;
+  if (to_ == DistanceTo::occupied_or_unknown) {
+    mask = VoxelMask::all();
+    if (block != nullptr) mask -= block->observed;
+    if (!assumed_free_.isEmpty() && mask.any()) {
+      VoxelMask free;
+      for_each_voxel(key, mask, [&](const VoxelIndex& voxel) {
+        if (assumed_free_.contains(voxel_centre(voxel, resolution_m_))) free.set(voxel);
+      });
+      mask -= free;
+    }
+  }
+  if (block != nullptr) mask |= block->occupied;
   return mask;
 }
 
@@ -80,9 +103,8 @@ float DistanceField::distance(const Vec3& p_world) const {
 bool DistanceField::take_over(const VoxelMap& map, BlockKey key) {
   const VoxelIndex cell = block_index(key) - first_block_ + VoxelIndex::Constant(halo_);
   if ((cell.array() < 0).any() || (cell.array() >= grid_size_.array()).any()) return false;
-  VoxelMask& own = occupied_[static_cast<std::size_t>(
-      (cell.z() * grid_size_.y() + cell.y()) * grid_size_.x() + cell.x())];
-  const VoxelMask now = obstacles(map.block(key));
+  VoxelMask& own = occupied_[cell_number(cell)];
+  const VoxelMask now = obstacles(key, map.block(key));
   if (own == now) return false;
   own = now;
   return true;
@@ -133,7 +155,7 @@ void DistanceField::update(const VoxelMap& map, const std::vector<BlockKey>& cha
 
 void DistanceField::rebuild(const VoxelMap& map) {
   CANOPEER_CHECK(map.resolution_m() == resolution_m_, "map and field differ in resolution");
-  std::fill(occupied_.begin(), occupied_.end(), obstacles(nullptr));
+  forget();
   for (const BlockKey key : map.block_keys()) take_over(map, key);
   compute(std::vector<std::uint8_t>(distance2_.size(), 1));
 }

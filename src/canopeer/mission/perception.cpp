@@ -25,11 +25,13 @@ std::optional<PixelCounts> score_pixels(const RgbdFrame& frame, const Mask& foun
 Perception::Perception(const MissionOptions& options)
     : options_(options), map_(options.map), fruits_(options.fruit) {}
 
-void Perception::move_field(const Vec3& base_world) {
+void Perception::move_field(const Vec3& base_world, const Box& known_free_world) {
   DistanceFieldOptions around;
   const Vec3 reach = Vec3::Constant(options_.field_reach_m);
   around.world = Box(base_world - reach, base_world + reach);
   around.truncation_m = options_.field_truncation_m;
+  if (options_.collision.unknown_blocks) around.to = DistanceTo::occupied_or_unknown;
+  around.assumed_free = known_free_world;
   field_.emplace(around, map_.resolution_m());
   field_->rebuild(map_);
 }

@@ -31,7 +31,10 @@ SegmentRunner::SegmentRunner(MissionContext& context, int index)
                            index)),
       checker_(context.robot, frame_.trolley, context.options.collision),
       self_filter_(context.robot, context.options.self_filter) {
-  context_.perception.move_field(frame_.T_world_base.translation());
+  const Box& known_free = context_.robot.setup().known_free;
+  context_.perception.move_field(
+      frame_.T_world_base.translation(),
+      known_free.isEmpty() ? known_free : transformed(known_free, frame_.T_world_base));
   checker_.set_map(&context_.perception.field());
 }
 

@@ -18,13 +18,17 @@ constexpr double kRefineBelowM = 0.04;
 /// With no padding an interval counts as looked at when nothing moves farther than this in it.
 constexpr double kSmallestMotionM = 0.001;
 
+/// How far beyond the clearance asked for the voxels near a link's shape are looked at, so that its
+/// clearance is known a little beyond that too.
+constexpr double kShapeMarginM = 0.01;
+
 }  // namespace
 
-/// Where everything is in one configuration, world frame.
+/// Where everything is in one configuration, world frame. On the stack: checks allocate nothing.
 struct CollisionChecker::State {
-  std::vector<Pose> T_world_link;
-  std::vector<Vec3> centres;
-  std::vector<Vec3> bounds;  // centres of the arm links' bounding spheres
+  Pose T_world_link[kMaxMovingLinks];
+  Vec3 centres[kMaxSpheres];
+  Vec3 bounds[kMaxArmLinks];  // centres of the arm links' bounding spheres
 };
 
 CollisionChecker::CollisionChecker(const RobotModel& robot, const TrolleyState& trolley,
@@ -35,22 +39,35 @@ CollisionChecker::CollisionChecker(const RobotModel& robot, const TrolleyState& 
   padding_.map.fill(options.map_padding_m);
   padding_.self.fill(options.self_padding_m);
   padding_.refine_below_m = kRefineBelowM;
-  robot.link_poses(Configuration::Zero(robot.dof()), trolley, resting_poses_);
-  collect_arm_links();
-  collect_obstacles();
+  padding_.refine_map_below_m = options.map_padding_m;
+  std::vector<Pose> T_world_link;
+  robot.link_poses(Configuration::Zero(robot.dof()), trolley, T_world_link);
+  T_world_root_ = T_world_link[static_cast<std::size_t>(robot.moving_root())];
+  double excess_m = options.sphere_excess_m;
+  while (!collect_arm_links(excess_m)) excess_m *= 1.5;
+  collect_obstacles(T_world_link);
 }
 
-void CollisionChecker::collect_arm_links() {
-  for (std::size_t i = 0; i < robot_->links().size(); ++i) {
-    const int link = static_cast<int>(i);
-    if (robot_->arm_joints_before(link) == 0 || robot_->links()[i].collision.empty()) continue;
+/// False: too many spheres.
+bool CollisionChecker::collect_arm_links(double sphere_excess_m) {
+  arm_links_.clear();
+  centres_.clear();
+  radii_m_.clear();
+  sphere_shapes_.clear();
+  max_radius_m_ = 0.0;
+  const std::vector<int>& moving = robot_->moving_links();
+  for (std::size_t m = 0; m < moving.size(); ++m) {
+    const Link& link = robot_->links()[moving[m]];
+    if (link.collision.empty()) continue;
     std::vector<Sphere> spheres;
-    for (const CollisionShape& shape : robot_->links()[i].collision) {
-      const auto cover = cover_with_spheres(shape, options_.sphere_excess_m);
+    for (const CollisionShape& shape : link.collision) {
+      const auto cover = cover_with_spheres(shape, sphere_excess_m);
       spheres.insert(spheres.end(), cover.begin(), cover.end());
+      sphere_shapes_.insert(sphere_shapes_.end(), cover.size(), &shape);
     }
     ArmLink arm_link;
-    arm_link.link = link;
+    arm_link.link = moving[m];
+    arm_link.moving = static_cast<int>(m);
     arm_link.first_sphere = static_cast<int>(centres_.size());
     arm_link.bound = bounding_sphere(spheres);
     for (const Sphere& sphere : spheres) {
@@ -58,21 +75,24 @@ void CollisionChecker::collect_arm_links() {
       radii_m_.push_back(sphere.radius_m);
       max_radius_m_ = std::max(max_radius_m_, sphere.radius_m);
     }
+    if (centres_.size() > kMaxSpheres) return false;
     arm_link.last_sphere = static_cast<int>(centres_.size());
     measure_reach(arm_link);
     arm_links_.push_back(std::move(arm_link));
   }
   CANOPEER_CHECK(arm_links_.size() <= kMaxArmLinks, "too many links in the arm");
+  return true;
 }
 
 // Of two arm links, the one nearer the base stands for itself by its exact shapes, the other by its
 // spheres: only the joints in between move them against each other.
-void CollisionChecker::collect_obstacles() {
+void CollisionChecker::collect_obstacles(const std::vector<Pose>& T_world_link) {
+  const std::vector<int>& moving = robot_->moving_links();
   for (std::size_t i = 0; i < robot_->links().size(); ++i) {
     const int link = static_cast<int>(i);
     Obstacle obstacle;
-    obstacle.link = link;
-    obstacle.moves = robot_->arm_joints_before(link) > 0;
+    const auto place = std::find(moving.begin(), moving.end(), link);
+    if (place != moving.end()) obstacle.moving = static_cast<int>(place - moving.begin());
     for (std::size_t a = 0; a < arm_links_.size(); ++a) {
       if (robot_->pair_checked(arm_links_[a].link, link) &&
           robot_->arm_joints_before(arm_links_[a].link) > robot_->arm_joints_before(link))
@@ -81,8 +101,13 @@ void CollisionChecker::collect_obstacles() {
     if (obstacle.arm_links.empty()) continue;
     for (const CollisionShape& shape : robot_->links()[i].collision) {
       obstacle.shape = shape;
+      obstacle.radius_m = shape.half_extents().norm();
+      obstacle.centre = shape.T_link_shape.translation();
+      if (obstacle.moving < 0) {
+        obstacle.centre = T_world_link[i] * obstacle.centre;
+        obstacle.T_shape_world = (T_world_link[i] * shape.T_link_shape).inverse();
+      }
       obstacles_.push_back(obstacle);
-      resting_T_shape_world_.push_back((resting_poses_[i] * shape.T_link_shape).inverse());
     }
   }
 }
@@ -95,12 +120,16 @@ void CollisionChecker::measure_reach(ArmLink& arm_link) const {
   const int joints = robot_->arm_joints_before(arm_link.link);
   arm_link.reach_m.assign(static_cast<std::size_t>(joints), 0.0);
   for (int i = 0; i < joints; ++i) {
+    if (robot_->arm_joint_type(i) == JointType::kPrismatic) {
+      arm_link.reach_m[static_cast<std::size_t>(i)] = 1.0;  // metre for metre
+      continue;
+    }
     double reach = own;
     bool first = true;
     for (const RobotModel::Hop& hop : hops) {
       if (hop.after_joint < i) continue;
       const Vec3 sideways = hop.offset - hop.axis * hop.axis.dot(hop.offset);
-      reach += first ? sideways.norm() : hop.offset.norm();
+      reach += (first ? sideways.norm() : hop.offset.norm()) + hop.slide;
       first = false;
     }
     arm_link.reach_m[static_cast<std::size_t>(i)] = reach;
@@ -117,27 +146,65 @@ bool CollisionChecker::measure_map(const State& state, const Required& required,
                                    Clearances& clearances) const {
   if (map_ == nullptr) return true;
   for (std::size_t a = 0; a < arm_links_.size(); ++a) {
+    const double enough = std::max(required.map[a], required.refine_map_below_m);
     for (int i = arm_links_[a].first_sphere; i < arm_links_[a].last_sphere; ++i) {
-      const double clearance = static_cast<double>(map_->distance(state.centres[i])) - radii_m_[i];
-      if (clearance < required.map[a]) return false;
+      double clearance = static_cast<double>(map_->distance(state.centres[i])) - radii_m_[i];
+      if (clearance < enough) {
+        clearance = shape_clearance(state, arm_links_[a], i, enough + kShapeMarginM);
+        if (clearance < required.map[a]) return false;
+      }
       clearances[a] = std::min(clearances[a], clearance);
     }
   }
   return true;
 }
 
+/// How far the part of a shape in one of its spheres is from the occupied voxels, at least; no more
+/// than `margin_m`. Voxels farther than that from the sphere are farther from what it holds.
+double CollisionChecker::shape_clearance(const State& state, const ArmLink& arm_link, int sphere,
+                                         double margin_m) const {
+  const CollisionShape& shape = *sphere_shapes_[sphere];
+  const Pose T_shape_world =
+      (state.T_world_link[arm_link.moving] * shape.T_link_shape).inverse();
+  const Vec3 reach = Vec3::Constant(radii_m_[sphere] + margin_m);
+  const double voxel = map_->resolution_m();
+  double clearance = margin_m;
+  map_->for_each_occupied(
+      Box(state.centres[sphere] - reach, state.centres[sphere] + reach),
+      [&](const VoxelIndex& index) {
+        clearance = std::min(
+            clearance, cube_distance(shape, T_shape_world * voxel_centre(index, voxel),
+                                     T_shape_world.linear(), voxel / 2.0));
+      });
+  return clearance;
+}
+
+// Coarse to fine: sphere around the shape against sphere around the link, shape against the latter,
+// shape against the link's spheres.
 bool CollisionChecker::measure_self(const State& state, const Required& required,
                                     Clearances& clearances) const {
-  for (std::size_t k = 0; k < obstacles_.size(); ++k) {
-    const Obstacle& obstacle = obstacles_[k];
-    const Pose T_shape_world =
-        obstacle.moves ? (state.T_world_link[obstacle.link] * obstacle.shape.T_link_shape).inverse()
-                       : resting_T_shape_world_[k];
+  for (const Obstacle& obstacle : obstacles_) {
+    const Pose* const T_world_link =
+        obstacle.moving < 0 ? nullptr : &state.T_world_link[obstacle.moving];
+    const Vec3 centre = T_world_link == nullptr ? obstacle.centre : *T_world_link * obstacle.centre;
+    Pose T_shape_world = Pose::Identity();
+    bool placed = false;
     for (const int a : obstacle.arm_links) {
       const ArmLink& arm_link = arm_links_[a];
-      double clearance = signed_distance(obstacle.shape, T_shape_world * state.bounds[a]) -
-                         arm_link.bound.radius_m;
-      if (clearance < required.self[a] || clearance < required.refine_below_m) {
+      const double enough = std::max(required.self[a], required.refine_below_m);
+      double clearance =
+          (centre - state.bounds[a]).norm() - obstacle.radius_m - arm_link.bound.radius_m;
+      if (clearance < enough) {
+        if (!placed) {
+          T_shape_world = T_world_link == nullptr
+                              ? obstacle.T_shape_world
+                              : (*T_world_link * obstacle.shape.T_link_shape).inverse();
+          placed = true;
+        }
+        clearance = signed_distance(obstacle.shape, T_shape_world * state.bounds[a]) -
+                    arm_link.bound.radius_m;
+      }
+      if (clearance < enough) {
         clearance = kFarM;
         for (int i = arm_link.first_sphere; i < arm_link.last_sphere; ++i)
           clearance = std::min(
@@ -155,14 +222,13 @@ bool CollisionChecker::measure(const Configuration& q, const Required& required,
                                Clearances& clearances) const {
   clearances.fill(kFarM);
   State state;
-  state.T_world_link = resting_poses_;
-  robot_->arm_link_poses(q, state.T_world_link);
-  state.centres.resize(centres_.size());
-  state.bounds.reserve(arm_links_.size());
-  for (const ArmLink& arm_link : arm_links_) {
-    state.bounds.push_back(state.T_world_link[arm_link.link] * arm_link.bound.centre);
+  robot_->moving_link_poses(q, T_world_root_, state.T_world_link);
+  for (std::size_t a = 0; a < arm_links_.size(); ++a) {
+    const ArmLink& arm_link = arm_links_[a];
+    const Pose& T_world_link = state.T_world_link[arm_link.moving];
+    state.bounds[a] = T_world_link * arm_link.bound.centre;
     for (int i = arm_link.first_sphere; i < arm_link.last_sphere; ++i)
-      state.centres[i] = state.T_world_link[arm_link.link] * centres_[i];
+      state.centres[i] = T_world_link * centres_[i];
   }
   return measure_map(state, required, clearances) && measure_self(state, required, clearances);
 }

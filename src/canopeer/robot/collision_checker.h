@@ -14,13 +14,18 @@ class DistanceField;
 struct CollisionOptions {
   double map_padding_m = 0.005;    ///< clearance kept from occupied voxels
   double self_padding_m = 0.005;   ///< clearance kept between links, and from the trolley
+  bool unknown_blocks = false;     ///< space never observed is kept away from like occupied voxels,
+                                   ///< but for RobotSetup::known_free; the distance field is made
+                                   ///< accordingly
   double sphere_excess_m = 0.008;  ///< how far the spheres may stick out of the links sideways
 };
 
 /// Fast, conservative collision test of one arm on a standing trolley: links as spheres, against
-/// the other links' exact shapes and against a distance field of the map. What it calls free is
-/// free on the true geometry; it may reject states that miss an obstacle by the padding plus the
-/// spheres' excess. Const members are safe to call from several threads.
+/// the other links' exact shapes and against a distance field of the map; where a sphere comes too
+/// near the map, the link's shape itself against the voxels around. What it calls free is free on
+/// the true geometry; it may reject states that miss a voxel by the padding, or another link by the
+/// padding plus the spheres' excess. Allocates nothing. Const members are safe to call from several
+/// threads.
 class CollisionChecker {
  public:
   /// `robot` must outlive the checker.
@@ -47,38 +52,47 @@ class CollisionChecker {
   [[nodiscard]] bool escape_free(const Configuration& start, const Configuration& to,
                                  int* states_checked = nullptr) const;
 
+  [[nodiscard]] const CollisionOptions& options() const { return options_; }
   [[nodiscard]] double max_sphere_radius_m() const { return max_radius_m_; }
+  [[nodiscard]] int sphere_count() const { return static_cast<int>(radii_m_.size()); }
 
  private:
-  static constexpr int kMaxArmLinks = 16;
+  static constexpr int kMaxArmLinks = 24;
+  static constexpr int kMaxSpheres = 512;  // more: the spheres are made coarser
   /// Per arm link: how far it is from whatever it must not touch, at least; metres.
   using Clearances = std::array<double, kMaxArmLinks>;
   struct ArmLink {
     int link = 0;
+    int moving = 0;               // its place in RobotModel::moving_links()
     int first_sphere = 0;         // in centres_ and radii_m_
     int last_sphere = 0;          // one past
     Sphere bound;                 // around all of them
     std::vector<double> reach_m;  // per arm joint that moves it: no point is farther from its axis
   };
   struct Obstacle {  // a shape of the robot, trolley included, that arm links can run into
-    int link = 0;
-    bool moves = false;
+    int moving = -1;  // its link's place in RobotModel::moving_links(); −1: it rests
     CollisionShape shape;
-    std::vector<int> arm_links;  // indices of those that must not touch it
+    Vec3 centre = Vec3::Zero();  // of a sphere around the shape: in its link, or in world if it rests
+    double radius_m = 0.0;
+    Pose T_shape_world = Pose::Identity();  // of one that rests
+    std::vector<int> arm_links;             // indices of those that must not touch it
   };
   struct Required {  // clearances to keep
     Clearances map;
     Clearances self;
-    double refine_below_m = 0.0;  // bounds on a clearance above this need no better one
+    double refine_below_m = 0.0;      // bounds on a self-clearance above this need no better one
+    double refine_map_below_m = 0.0;  // the same for the map
   };
   struct State;
 
-  void collect_arm_links();
-  void collect_obstacles();
+  bool collect_arm_links(double sphere_excess_m);
+  void collect_obstacles(const std::vector<Pose>& T_world_link);
   void measure_reach(ArmLink& arm_link) const;
   bool measure(const Configuration& q, const Required& required, Clearances& clearances) const;
   bool measure_self(const State& state, const Required& required, Clearances& clearances) const;
   bool measure_map(const State& state, const Required& required, Clearances& clearances) const;
+  double shape_clearance(const State& state, const ArmLink& arm_link, int sphere,
+                         double margin_m) const;
   bool sweep(const Configuration& a, const Configuration& b, const Required& required,
              int& states_checked) const;
 
@@ -86,12 +100,12 @@ class CollisionChecker {
   CollisionOptions options_;
   Required padding_;
   const DistanceField* map_ = nullptr;
-  std::vector<Pose> resting_poses_;  // of all links in world; those of the arm are overwritten
+  Pose T_world_root_ = Pose::Identity();  // of RobotModel::moving_root()
   std::vector<ArmLink> arm_links_;
   std::vector<Vec3> centres_;  // link frame
   std::vector<double> radii_m_;
+  std::vector<const CollisionShape*> sphere_shapes_;  // what each sphere helps to cover
   std::vector<Obstacle> obstacles_;
-  std::vector<Pose> resting_T_shape_world_;  // parallel to obstacles_, of those that do not move
   double max_radius_m_ = 0.0;
 };
 

@@ -6,6 +6,8 @@
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/narrowphase/collision.h>
 
+#include <algorithm>
+
 #include "canopeer/map/voxel_map.h"
 
 namespace canopeer {
@@ -13,18 +15,6 @@ namespace {
 
 using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
 using Mesh = fcl::BVHModel<fcl::OBBd>;
-
-Geometry make_geometry(const CollisionShape& shape) {
-  switch (shape.kind) {
-    case ShapeKind::kBox:
-      return std::make_shared<fcl::Boxd>(shape.size_m);
-    case ShapeKind::kCylinder:
-      return std::make_shared<fcl::Cylinderd>(shape.size_m.x(), shape.size_m.z());
-    case ShapeKind::kSphere:
-      return std::make_shared<fcl::Sphered>(shape.size_m.x());
-  }
-  return nullptr;
-}
 
 std::shared_ptr<Mesh> make_mesh(const TriangleMesh& mesh) {
   std::vector<fcl::Vector3d> vertices;
@@ -38,6 +28,20 @@ std::shared_ptr<Mesh> make_mesh(const TriangleMesh& mesh) {
   model->addSubModel(vertices, triangles);
   model->endModel();
   return model;
+}
+
+Geometry make_geometry(const CollisionShape& shape) {
+  switch (shape.kind) {
+    case ShapeKind::kBox:
+      return std::make_shared<fcl::Boxd>(shape.size_m);
+    case ShapeKind::kCylinder:
+      return std::make_shared<fcl::Cylinderd>(shape.size_m.x(), shape.size_m.z());
+    case ShapeKind::kSphere:
+      return std::make_shared<fcl::Sphered>(shape.size_m.x());
+    case ShapeKind::kMesh:
+      return make_mesh(shape.mesh->triangles);
+  }
+  return nullptr;
 }
 
 bool in_contact(const fcl::CollisionGeometryd* a, const Pose& T_world_a,
@@ -184,6 +188,26 @@ ContactReport ExactChecker::check(const Configuration& q, const TrolleyState& tr
   report.structure = note(impl_->find_structure(placed, pair));
   report.map = note(map != nullptr && impl_->find_map(placed, *map, pair));
   return report;
+}
+
+std::vector<std::pair<int, int>> ExactChecker::touching_pairs(const Configuration& q,
+                                                              const TrolleyState& trolley) const {
+  const std::vector<Placed> placed = impl_->place(q, trolley);
+  std::vector<std::pair<int, int>> pairs;
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    for (std::size_t j = i + 1; j < placed.size(); ++j) {
+      const std::pair<int, int> pair = std::minmax(placed[i].link, placed[j].link);
+      if (impl_->robot->rigidly_joined(pair.first, pair.second) ||
+          std::find(pairs.begin(), pairs.end(), pair) != pairs.end() ||
+          !placed[i].bounds.intersects(placed[j].bounds))
+        continue;
+      if (in_contact(placed[i].geometry, placed[i].T_world_shape, placed[j].geometry,
+                     placed[j].T_world_shape))
+        pairs.push_back(pair);
+    }
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
 }
 
 bool ExactChecker::touches(const Configuration& q, const TrolleyState& trolley,

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "canopeer/geometry/triangle_mesh.h"
@@ -50,6 +51,11 @@ class ExactChecker {
   /// cube; null: not asked.
   [[nodiscard]] ContactReport check(const Configuration& q, const TrolleyState& trolley,
                                     const VoxelMap* map = nullptr) const;
+
+  /// All pairs of links whose shapes touch, disabled ones too, but for those that are rigidly
+  /// joined; indices of RobotModel::links(), the smaller first, sorted.
+  [[nodiscard]] std::vector<std::pair<int, int>> touching_pairs(const Configuration& q,
+                                                                const TrolleyState& trolley) const;
 
   /// Whether a link that moves with the arm touches one of the meshes (plants, say).
   [[nodiscard]] bool touches(const Configuration& q, const TrolleyState& trolley,

@@ -1,36 +1,54 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "canopeer/geometry/pose.h"
+#include "canopeer/geometry/triangle_mesh.h"
 
 namespace canopeer {
 
-enum class ShapeKind { kBox, kCylinder, kSphere };
+enum class ShapeKind { kBox, kCylinder, kSphere, kMesh };
 
-/// A convex solid, centred at its own origin and placed in a link.
+/// A triangle mesh as a part of a robot, and the convex solid that stands for it in fast checks.
+struct ShapeMesh {
+  struct Plane {
+    Vec3 normal = Vec3::UnitZ();  ///< unit, outwards
+    double offset_m = 0.0;        ///< normal · p ≤ offset_m inside
+  };
+  std::string file;  ///< where it was read from
+  TriangleMesh triangles;
+  std::vector<Plane> planes;  ///< the smallest solid around it with faces in 26 fixed directions
+};
+
+/// A solid placed in a link: convex and centred at its own origin, or a mesh with its bounding box
+/// centred there.
 struct CollisionShape {
   ShapeKind kind = ShapeKind::kSphere;
   Vec3 size_m = Vec3::Zero();  ///< box: edge lengths; cylinder (about z): radius, radius, length;
-                               ///< sphere: radius three times
+                               ///< sphere: radius three times; mesh: edges of its bounding box
   Pose T_link_shape = Pose::Identity();
+  std::shared_ptr<const ShapeMesh> mesh{};  ///< of a mesh, else null
+
+  /// A mesh given in the frame T_link_mesh; it must have triangles.
+  static CollisionShape of_mesh(TriangleMesh triangles, const Pose& T_link_mesh, std::string file);
 
   static CollisionShape box(const Vec3& edges_m, const Pose& T_link_shape = Pose::Identity()) {
-    return {ShapeKind::kBox, edges_m, T_link_shape};
+    return {ShapeKind::kBox, edges_m, T_link_shape, nullptr};
   }
   static CollisionShape cylinder(double radius_m, double length_m,
                                  const Pose& T_link_shape = Pose::Identity()) {
-    return {ShapeKind::kCylinder, Vec3(radius_m, radius_m, length_m), T_link_shape};
+    return {ShapeKind::kCylinder, Vec3(radius_m, radius_m, length_m), T_link_shape, nullptr};
   }
   static CollisionShape sphere(double radius_m, const Pose& T_link_shape = Pose::Identity()) {
-    return {ShapeKind::kSphere, Vec3::Constant(radius_m), T_link_shape};
+    return {ShapeKind::kSphere, Vec3::Constant(radius_m), T_link_shape, nullptr};
   }
   /// Half edge lengths of the smallest box around it, axes of the shape.
   [[nodiscard]] Vec3 half_extents() const {
-    if (kind == ShapeKind::kBox) return size_m / 2.0;
+    if (kind == ShapeKind::kBox || kind == ShapeKind::kMesh) return size_m / 2.0;
     if (kind == ShapeKind::kCylinder) return {size_m.x(), size_m.x(), size_m.z() / 2.0};
     return size_m;
   }
@@ -39,6 +57,7 @@ struct CollisionShape {
 struct Link {
   std::string name;
   std::vector<CollisionShape> collision;  ///< empty: a frame only
+  std::vector<CollisionShape> visual{};   ///< for pictures only; empty: the collision shapes
 };
 
 enum class JointType { kFixed, kRevolute, kPrismatic };
@@ -65,6 +84,7 @@ struct RobotDescription {
   std::vector<Joint> joints;
   /// Pairs of links that need no self-collision check: neighbours, and pairs that can never meet.
   std::vector<std::pair<std::string, std::string>> disabled_pairs;
+  std::vector<std::string> notices;  ///< what its files lack but can be done without
 };
 
 }  // namespace canopeer

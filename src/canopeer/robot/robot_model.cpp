@@ -8,24 +8,28 @@
 namespace canopeer {
 namespace {
 
-/// T · (rotation about `axis`); the usual axis, z, mixes two columns only.
-Pose rotated(const Pose& T, const Vec3& axis, double angle) {
-  Pose result = T;
-  if (axis == Vec3::UnitZ()) {
-    const double c = std::cos(angle);
-    const double s = std::sin(angle);
-    result.linear().col(0) = c * T.linear().col(0) + s * T.linear().col(1);
-    result.linear().col(1) = c * T.linear().col(1) - s * T.linear().col(0);
-  } else {
-    result.linear() = T.linear() * Eigen::AngleAxisd(angle, axis).toRotationMatrix();
-  }
-  return result;
-}
-
 const Joint* find_joint(const RobotDescription& robot, const std::string& name) {
   const auto it = std::find_if(robot.joints.begin(), robot.joints.end(),
                                [&](const Joint& joint) { return joint.name == name; });
   return it == robot.joints.end() ? nullptr : &*it;
+}
+
+/// What motions are planned and timed within.
+Expected<void> check_limits(const Joint& joint) {
+  constexpr double kLargest = 1e4;  // the reach of sin_cos(), with room
+  const auto number = [](double value) { return std::isfinite(value); };
+  std::string missing;
+  const auto want = [&](bool there, const char* what) {
+    if (!there) missing += std::string(missing.empty() ? "" : ", ") + what;
+  };
+  want(number(joint.lower) && number(joint.upper), "lower and upper");
+  want(number(joint.velocity_limit) && joint.velocity_limit > 0.0, "velocity above 0");
+  want(number(joint.acceleration_limit) && joint.acceleration_limit > 0.0, "acceleration above 0");
+  if (!missing.empty())
+    return fail("joint '" + joint.name + "' needs finite limits; missing: " + missing);
+  if (joint.lower > joint.upper || joint.lower < -kLargest || joint.upper > kLargest)
+    return fail("joint '" + joint.name + "': expected lower <= upper, both within 1e4");
+  return {};
 }
 
 Joint fixed_axis() {
@@ -43,6 +47,7 @@ Expected<RobotModel> RobotModel::make(RobotDescription description, RobotSetup s
   if (auto ordered = model.order_links(); !ordered) return fail(ordered.error().message);
   if (auto assigned = model.assign_roles(); !assigned) return fail(assigned.error().message);
   if (auto checked = model.check_setup(); !checked) return fail(checked.error().message);
+  model.compile_chains();
   model.collect_pairs();
   return model;
 }
@@ -82,39 +87,35 @@ Expected<void> RobotModel::order_links() {
 }
 
 Expected<void> RobotModel::assign_roles() {
-  const auto axis_node = [&](const std::string& name, JointType type, const char* what,
+  const auto axis_node = [&](const std::string& name, bool arm, const char* what,
                              int& index) -> Expected<const Joint*> {
     const Joint* joint = find_joint(description_, name);
     if (joint == nullptr) return fail("no joint is called '" + name + "' (" + what + ")");
-    if (joint->type != type)
-      return fail("joint '" + name + "' must be " +
-                  (type == JointType::kRevolute ? "revolute" : "prismatic") + " (" + what + ")");
-    if (!std::isfinite(joint->lower) || !std::isfinite(joint->upper) ||
-        joint->lower > joint->upper || !(joint->velocity_limit > 0.0) ||
-        !std::isfinite(joint->velocity_limit) || !(joint->acceleration_limit > 0.0) ||
-        !std::isfinite(joint->acceleration_limit)) {
-      return fail("joint '" + name +
-                  "' needs finite position limits in order, and finite velocity and acceleration "
-                  "limits above 0");
-    }
+    if (joint->type != JointType::kPrismatic && !(arm && joint->type == JointType::kRevolute))
+      return fail("joint '" + name + "' must be " + (arm ? "revolute or prismatic" : "prismatic") +
+                  " (" + what + ")");
+    if (auto limits = check_limits(*joint); !limits) return fail(limits.error().message);
     index = link_index(joint->child);
     return joint;
   };
 
   const int dof = static_cast<int>(setup_.arm_joints.size());
+  if (dof < 1 || dof > kMaxArmJoints)
+    return fail("arm_joints: expected 1 to " + std::to_string(kMaxArmJoints) + " joints, found " +
+                std::to_string(dof));
   limits_.lower.resize(dof);
   limits_.upper.resize(dof);
   limits_.velocity.resize(dof);
   limits_.acceleration.resize(dof);
   for (int i = 0; i < dof; ++i) {
     int index = -1;
-    auto joint = axis_node(setup_.arm_joints[i], JointType::kRevolute, "arm joint", index);
+    auto joint = axis_node(setup_.arm_joints[i], true, "arm joint", index);
     if (!joint) return fail(joint.error().message);
     if (nodes_[index].drive != Drive::kNone)
       return fail("joint '" + setup_.arm_joints[i] + "' is listed twice");
     nodes_[index].drive = Drive::kArm;
     nodes_[index].arm_joint = i;
-    arm_chain_.push_back(index);
+    arm_nodes_.push_back(index);
     limits_.lower[i] = (*joint)->lower;
     limits_.upper[i] = (*joint)->upper;
     limits_.velocity[i] = (*joint)->velocity_limit;
@@ -125,7 +126,7 @@ Expected<void> RobotModel::assign_roles() {
     const std::string& name = travel ? setup_.travel_joint : setup_.lift_joint;
     if (name.empty()) continue;
     int index = -1;
-    auto joint = axis_node(name, JointType::kPrismatic, "trolley axis", index);
+    auto joint = axis_node(name, false, "trolley axis", index);
     if (!joint) return fail(joint.error().message);
     nodes_[index].drive = travel ? Drive::kTravel : Drive::kLift;
     (travel ? travel_axis_ : lift_axis_) = **joint;
@@ -143,6 +144,12 @@ Expected<void> RobotModel::assign_roles() {
     }
     node.rigid_group = node.drive == Drive::kNone ? parent.rigid_group : static_cast<int>(i);
   }
+
+  const auto moving = std::count_if(nodes_.begin(), nodes_.end(),
+                                    [](const Node& node) { return node.arm_joints_before > 0; });
+  if (moving > kMaxMovingLinks)
+    return fail(std::to_string(moving) + " links move with the arm; at most " +
+                std::to_string(kMaxMovingLinks) + " can be handled");
 
   const auto path_to = [&](int link, int stop) {
     std::vector<int> path;
@@ -210,56 +217,89 @@ bool RobotModel::within_limits(const Configuration& q) const {
   return (q.array() >= limits_.lower.array()).all() && (q.array() <= limits_.upper.array()).all();
 }
 
-Pose RobotModel::T_parent_link(const Node& node, const Configuration& q,
-                               const TrolleyState& trolley) const {
-  switch (node.drive) {
-    case Drive::kNone:
-      return node.T_parent_joint;
-    case Drive::kArm:
-      return rotated(node.T_parent_joint, node.axis, q[node.arm_joint]);
-    case Drive::kTravel:
-      return node.T_parent_joint * Eigen::Translation3d(node.axis * trolley.travel_m);
-    case Drive::kLift:
-      return node.T_parent_joint * Eigen::Translation3d(node.axis * trolley.lift_m);
+// Two chains: all links that move with the arm, for collisions; and joints only, with what is
+// fixed in between folded in, for the camera.
+void RobotModel::compile_chains() {
+  std::vector<int> segment_of(nodes_.size(), -1);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    if (node.arm_joints_before == 0) continue;
+    if (moving_links_.empty()) moving_root_ = node.parent;
+    segment_of[i] = moving_chain_.add(segment_of[static_cast<std::size_t>(node.parent)],
+                                      node.T_parent_joint, node.type, node.axis, node.arm_joint);
+    moving_links_.push_back(static_cast<int>(i));
   }
-  return node.T_parent_joint;
+  Pose T_fixed = Pose::Identity();
+  for (const int index : camera_path_) {
+    const Node& node = nodes_[index];
+    T_fixed = T_fixed * node.T_parent_joint;
+    if (node.drive != Drive::kArm) continue;
+    camera_chain_.add(camera_chain_.size() - 1, T_fixed, node.type, node.axis, node.arm_joint);
+    T_fixed = Pose::Identity();
+  }
+  T_last_camera_ = T_fixed;
+}
+
+Pose RobotModel::T_parent_link(const Node& node, const TrolleyState& trolley) const {
+  const double travelled = node.drive == Drive::kTravel ? trolley.travel_m
+                           : node.drive == Drive::kLift ? trolley.lift_m
+                                                        : 0.0;
+  Pose T = node.T_parent_joint;
+  if (travelled != 0.0) T.translate(node.axis * travelled);
+  return T;
 }
 
 Pose RobotModel::T_world_base(const TrolleyState& trolley) const {
-  const Configuration none;  // no arm joint lies before the base
   Pose T = setup_.T_world_root;
-  for (const int index : base_path_) T = T * T_parent_link(nodes_[index], none, trolley);
+  for (const int index : base_path_) T = T * T_parent_link(nodes_[index], trolley);
   return T;
 }
 
 Pose RobotModel::T_base_camera(const Configuration& q) const {
   CANOPEER_CHECK(q.size() == dof(), "configuration of another arm");
-  Pose T = Pose::Identity();
-  for (const int index : camera_path_) T = T * T_parent_link(nodes_[index], q, {});
-  return T;
+  Pose T[kMaxArmJoints];
+  camera_chain_.poses(q, Pose::Identity(), T);
+  return T[dof() - 1] * T_last_camera_;
+}
+
+void RobotModel::camera_jacobian(const Configuration& q, Pose& T_base_camera,
+                                 Jacobian& jacobian) const {
+  Pose T[kMaxArmJoints];
+  camera_chain_.poses(q, Pose::Identity(), T);
+  T_base_camera = T[dof() - 1] * T_last_camera_;
+  jacobian.resize(6, dof());
+  for (int i = 0; i < dof(); ++i) {
+    const Vec3 axis = T[i].linear() * nodes_[arm_nodes_[i]].axis;
+    if (arm_joint_type(i) == JointType::kPrismatic) {
+      jacobian.col(i) << axis, Vec3::Zero();
+    } else {
+      jacobian.col(i) << axis.cross(T_base_camera.translation() - T[i].translation()), axis;
+    }
+  }
 }
 
 std::vector<RobotModel::AxisLine> RobotModel::arm_axes(const Configuration& q) const {
+  Pose T[kMaxArmJoints];
+  camera_chain_.poses(q, Pose::Identity(), T);
   std::vector<AxisLine> axes;
-  Pose T = Pose::Identity();
-  for (const int index : camera_path_) {
-    const Node& node = nodes_[index];
-    const Pose T_base_joint = T * node.T_parent_joint;
-    if (node.drive == Drive::kArm)
-      axes.push_back({T_base_joint.translation(), T_base_joint.linear() * node.axis});
-    T = T * T_parent_link(node, q, {});
-  }
+  for (int i = 0; i < dof(); ++i)
+    axes.push_back(
+        {T[i].translation(), T[i].linear() * nodes_[arm_nodes_[i]].axis, arm_joint_type(i)});
   return axes;
 }
 
 std::vector<RobotModel::Hop> RobotModel::arm_hops(int link) const {
   std::vector<Hop> hops;
   for (; nodes_[link].parent >= 0; link = nodes_[link].parent) {
-    const Node& parent = nodes_[nodes_[link].parent];
+    const Node& node = nodes_[link];
+    const Node& parent = nodes_[node.parent];
     if (parent.arm_joints_before == 0) break;
+    Hop hop{parent.arm_joints_before - 1, node.T_parent_joint.translation(), parent.axis, 0.0};
+    if (node.drive == Drive::kArm && node.type == JointType::kPrismatic)
+      hop.slide = std::max(std::abs(limits_.lower[node.arm_joint]),
+                           std::abs(limits_.upper[node.arm_joint]));
     // A fixed joint's stretch has no axis of its own; only the first stretch after a joint uses it.
-    hops.push_back(
-        {parent.arm_joints_before - 1, nodes_[link].T_parent_joint.translation(), parent.axis});
+    hops.push_back(hop);
   }
   std::reverse(hops.begin(), hops.end());
   return hops;
@@ -276,20 +316,32 @@ bool RobotModel::pair_checked(int link_a, int link_b) const {
                        static_cast<std::size_t>(link_b)] != 0;
 }
 
+bool RobotModel::joined_by_a_joint(int link_a, int link_b) const {
+  // A rigid group is named after the link at its root, which the joint carries.
+  const auto parent_group = [&](int link) {
+    const int parent = nodes_[nodes_[link].rigid_group].parent;
+    return parent < 0 ? -1 : nodes_[parent].rigid_group;
+  };
+  return parent_group(link_a) == nodes_[link_b].rigid_group ||
+         parent_group(link_b) == nodes_[link_a].rigid_group;
+}
+
 void RobotModel::link_poses(const Configuration& q, const TrolleyState& trolley,
                             std::vector<Pose>& T_world_link) const {
   CANOPEER_CHECK(q.size() == dof(), "configuration of another arm");
   T_world_link.resize(links_.size());
   T_world_link[0] = setup_.T_world_root;
-  for (std::size_t i = 1; i < nodes_.size(); ++i)
-    T_world_link[i] = T_world_link[nodes_[i].parent] * T_parent_link(nodes_[i], q, trolley);
+  for (std::size_t i = 1; i < nodes_.size(); ++i) {
+    if (nodes_[i].arm_joints_before == 0)
+      T_world_link[i] = T_world_link[nodes_[i].parent] * T_parent_link(nodes_[i], trolley);
+  }
+  arm_link_poses(q, T_world_link);
 }
 
 void RobotModel::arm_link_poses(const Configuration& q, std::vector<Pose>& T_world_link) const {
-  for (std::size_t i = 1; i < nodes_.size(); ++i) {
-    if (nodes_[i].arm_joints_before == 0) continue;
-    T_world_link[i] = T_world_link[nodes_[i].parent] * T_parent_link(nodes_[i], q, {});
-  }
+  Pose T[kMaxMovingLinks];
+  moving_chain_.poses(q, T_world_link[moving_root_], T);
+  for (std::size_t i = 0; i < moving_links_.size(); ++i) T_world_link[moving_links_[i]] = T[i];
 }
 
 bool RobotModel::has_home(std::string_view name) const { return setup_.home.count(name) > 0; }

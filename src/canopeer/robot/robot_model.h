@@ -7,12 +7,14 @@
 
 #include "canopeer/base/expected.h"
 #include "canopeer/geometry/pose.h"
+#include "canopeer/robot/arm_chain.h"
+#include "canopeer/robot/configuration.h"
 #include "canopeer/robot/robot_description.h"
 
 namespace canopeer {
 
-/// Arm joint positions in the order of RobotSetup::arm_joints, rad.
-using Configuration = Eigen::VectorXd;
+/// Most links that may move with an arm, frames without shape included.
+inline constexpr int kMaxMovingLinks = 48;
 
 /// Where the trolley stands and how high the arm is lifted.
 struct TrolleyState {
@@ -22,7 +24,7 @@ struct TrolleyState {
 
 /// The part a description's links and joints play, and where the robot stands.
 struct RobotSetup {
-  std::vector<std::string> arm_joints;  ///< from base to tool, all revolute
+  std::vector<std::string> arm_joints;  ///< from base to tool, revolute or prismatic (a rail)
   std::string base_link;                ///< frame in which boxes and views are given
   std::string camera_frame;             ///< optical frame: z forward, y down
   std::string travel_joint;             ///< prismatic; empty: no such axis
@@ -31,9 +33,11 @@ struct RobotSetup {
   std::map<std::string, Configuration, std::less<>> home;  ///< named states, e.g. "side_1"
   std::vector<Box> workspace;        ///< one per side: where the camera may be, arm base frame
   std::vector<Box> sampling_region;  ///< one per side: where targets are, arm base frame
+  Box known_free;  ///< where nothing but the robot is, arm base frame; counts where unknown space
+                   ///< blocks. Empty: no such place is known
 };
 
-/// Kinematic limits of the arm joints, one entry a joint.
+/// Kinematic limits of the arm joints, one entry a joint; m instead of rad where it is prismatic.
 struct JointLimits {
   Configuration lower;         ///< rad
   Configuration upper;         ///< rad
@@ -49,7 +53,10 @@ class RobotModel {
   /// names what is wrong.
   [[nodiscard]] static Expected<RobotModel> make(RobotDescription description, RobotSetup setup);
 
-  [[nodiscard]] int dof() const { return static_cast<int>(arm_chain_.size()); }
+  [[nodiscard]] int dof() const { return static_cast<int>(limits_.lower.size()); }
+  [[nodiscard]] JointType arm_joint_type(int joint) const {
+    return nodes_[arm_nodes_[joint]].type;
+  }
   [[nodiscard]] const JointLimits& limits() const { return limits_; }
   [[nodiscard]] bool within_limits(const Configuration& q) const;
   [[nodiscard]] const RobotSetup& setup() const { return setup_; }
@@ -65,10 +72,16 @@ class RobotModel {
   /// Forward kinematics to the camera's optical frame.
   [[nodiscard]] Pose T_base_camera(const Configuration& q) const;
 
+  using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, kMaxArmJoints>;
+  /// The same, and how the camera's position (rows 0 … 2) and orientation (rows 3 … 5) move with
+  /// each joint, both in the arm base frame. Allocates nothing.
+  void camera_jacobian(const Configuration& q, Pose& T_base_camera, Jacobian& jacobian) const;
+
   /// A joint's axis as a line in the arm base frame.
   struct AxisLine {
     Vec3 point = Vec3::Zero();
     Vec3 direction = Vec3::UnitZ();
+    JointType type = JointType::kRevolute;
   };
   /// The axes of the arm joints, base to tool, at `q`.
   [[nodiscard]] std::vector<AxisLine> arm_axes(const Configuration& q) const;
@@ -78,6 +91,7 @@ class RobotModel {
     int after_joint = 0;         ///< arm joint the stretch starts at
     Vec3 offset = Vec3::Zero();  ///< from its frame's origin to the next frame's, m
     Vec3 axis = Vec3::UnitZ();   ///< its axis in the same frame
+    double slide = 0.0;          ///< what a prismatic joint at the end adds at most, m
   };
   /// The stretches from the first arm joint to `link`, fixed joints on the way included.
   [[nodiscard]] std::vector<Hop> arm_hops(int link) const;
@@ -92,11 +106,28 @@ class RobotModel {
   /// Whether the two links can collide: rigidly joined and disabled pairs cannot.
   [[nodiscard]] bool pair_checked(int link_a, int link_b) const;
 
+  /// Whether nothing moves the two links against each other.
+  [[nodiscard]] bool rigidly_joined(int link_a, int link_b) const {
+    return nodes_[link_a].rigid_group == nodes_[link_b].rigid_group;
+  }
+  /// Whether only one moving joint lies between the two links.
+  [[nodiscard]] bool joined_by_a_joint(int link_a, int link_b) const;
+
   /// World poses of all links; `T_world_link` is resized to links().size().
   void link_poses(const Configuration& q, const TrolleyState& trolley,
                   std::vector<Pose>& T_world_link) const;
   /// Only the links that move with the arm; the others must hold the poses of link_poses().
   void arm_link_poses(const Configuration& q, std::vector<Pose>& T_world_link) const;
+
+  /// The links that move with the arm, parents first; at most kMaxMovingLinks.
+  [[nodiscard]] const std::vector<int>& moving_links() const { return moving_links_; }
+  /// The link they all hang on.
+  [[nodiscard]] int moving_root() const { return moving_root_; }
+  /// Poses of moving_links() in that order, given the one of moving_root(). Allocates nothing; `T`
+  /// has room for moving_links().size() poses.
+  void moving_link_poses(const Configuration& q, const Pose& T_root, Pose* T) const {
+    moving_chain_.poses(q, T_root, T);
+  }
 
   /// A named home state; the name must exist (see has_home).
   [[nodiscard]] const Configuration& home(std::string_view name) const;
@@ -123,9 +154,9 @@ class RobotModel {
   [[nodiscard]] Expected<void> order_links();
   [[nodiscard]] Expected<void> assign_roles();
   [[nodiscard]] Expected<void> check_setup() const;
+  void compile_chains();
   void collect_pairs();
-  [[nodiscard]] Pose T_parent_link(const Node& node, const Configuration& q,
-                                   const TrolleyState& trolley) const;
+  [[nodiscard]] Pose T_parent_link(const Node& node, const TrolleyState& trolley) const;
 
   RobotDescription description_;
   RobotSetup setup_;
@@ -134,13 +165,19 @@ class RobotModel {
   Joint lift_axis_;
   std::vector<Link> links_;
   std::vector<Node> nodes_;       // parallel to links_
-  std::vector<int> arm_chain_;    // nodes carried by the arm joints, base to tool
+  std::vector<int> arm_nodes_;    // nodes carried by the arm joints, base to tool
   std::vector<int> camera_path_;  // nodes from below the base link to the camera frame
   std::vector<int> base_path_;    // nodes from the root to the base link
   std::vector<char> pair_checked_;
+  ArmChain moving_chain_;  // parallel to moving_links_
+  std::vector<int> moving_links_;
+  int moving_root_ = 0;
+  ArmChain camera_chain_;  // a segment per arm joint, seen from the base link
+  Pose T_last_camera_ = Pose::Identity();
 };
 
-/// Σ|Δq|, rad: the joint distance of the paper's thresholds.
+/// Σ|Δq|, rad: the joint distance of the paper's thresholds. A metre of a prismatic joint counts as
+/// a radian: that is what a radian moves the camera of an arm stretched out by a metre.
 [[nodiscard]] double joint_distance(const Configuration& a, const Configuration& b);
 
 }  // namespace canopeer

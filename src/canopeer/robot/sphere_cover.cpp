@@ -37,6 +37,110 @@ std::vector<Sphere> cover_box(const Vec3& edges, double max_excess) {
   return spheres;
 }
 
+/// A small sphere around points: Bădoiu & Clarkson 2003, steps towards the farthest one.
+Sphere sphere_around(const std::vector<Vec3>& points) {
+  Box box;
+  for (const Vec3& p : points) box.extend(p);
+  Vec3 centre = box.center();
+  const auto farthest = [&] {
+    return *std::max_element(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
+      return (a - centre).squaredNorm() < (b - centre).squaredNorm();
+    });
+  };
+  for (int step = 2; step < 40; ++step) centre += (farthest() - centre) / step;
+  return {centre, (farthest() - centre).norm()};
+}
+
+/// Along the longest edge slices as for a cylinder; across it pieces no longer than wide. Each piece
+/// is filled with points of a fine grid, and a sphere around those, widened by half a cell's
+/// diagonal, holds it.
+std::vector<Sphere> cover_mesh(const CollisionShape& shape, double max_excess) {
+  const Vec3 edges = shape.size_m;
+  const double thin = std::max(edges.minCoeff(), 2.0 * max_excess);
+  Eigen::Index longest = 0;
+  edges.maxCoeff(&longest);
+  Eigen::Vector3i pieces;
+  for (int axis = 0; axis < 3; ++axis)
+    pieces[axis] = std::max(1, static_cast<int>(std::round(edges[axis] / (1.5 * thin))));
+  double across2 = 0.0;  // square of half a piece's diagonal across the longest edge
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis == longest) continue;
+    across2 += 0.25 * edges[axis] * edges[axis] / pieces[axis] / pieces[axis];
+  }
+  const double radius = std::sqrt(across2);
+  const double stretch = std::sqrt((radius + max_excess) * (radius + max_excess) - across2);
+  pieces[longest] = std::max(1, static_cast<int>(std::ceil(edges[longest] / (2.0 * stretch))));
+
+  const double step = std::max({0.4 * max_excess, 1e-4, edges.maxCoeff() / 200.0});
+  const double half_diagonal = step * std::sqrt(3.0) / 2.0;
+  std::vector<std::vector<Vec3>> points(static_cast<std::size_t>(pieces.prod()));
+  const Eigen::Vector3i count = (edges / step).array().ceil().cast<int>().max(1) + 1;
+  for (int x = 0; x < count.x(); ++x) {
+    for (int y = 0; y < count.y(); ++y) {
+      for (int z = 0; z < count.z(); ++z) {
+        const Vec3 p = (Vec3(x, y, z) - (count.cast<double>() - Vec3::Ones()) / 2.0) * step;
+        if (signed_distance(shape, p) > half_diagonal) continue;
+        const Eigen::Vector3i at = ((p.cwiseQuotient(edges).array() + 0.5) *
+                                    pieces.cast<double>().array())
+                                       .floor()
+                                       .cast<int>()
+                                       .max(0)
+                                       .min(pieces.array() - 1);
+        points[static_cast<std::size_t>((at.x() * pieces.y() + at.y()) * pieces.z() + at.z())]
+            .push_back(p);
+      }
+    }
+  }
+  std::vector<Sphere> spheres;
+  for (const std::vector<Vec3>& piece : points) {
+    if (piece.empty()) continue;
+    spheres.push_back(sphere_around(piece));
+    spheres.back().radius_m += half_diagonal;
+  }
+  return spheres;
+}
+
+/// Direction in which the distance of `p_shape` from the shape grows.
+Vec3 away_from(const CollisionShape& shape, const Vec3& p) {
+  switch (shape.kind) {
+    case ShapeKind::kSphere:
+      return p.squaredNorm() > 0.0 ? Vec3(p.normalized()) : Vec3(Vec3::UnitX());
+    case ShapeKind::kCylinder: {
+      const double across = p.head<2>().norm();
+      const double radial = across - shape.size_m.x();
+      const double axial = std::abs(p.z()) - shape.size_m.z() / 2.0;
+      const Vec3 outwards = across > 0.0 ? Vec3(p.x() / across, p.y() / across, 0.0) : Vec3(Vec3::UnitX());
+      const Vec3 upwards = Vec3::UnitZ() * (p.z() < 0.0 ? -1.0 : 1.0);
+      if (radial <= 0.0 || axial <= 0.0) return radial > axial ? outwards : upwards;
+      return (radial * outwards + axial * upwards).normalized();
+    }
+    case ShapeKind::kBox: {
+      const Vec3 beyond = p.cwiseAbs() - shape.size_m / 2.0;
+      Vec3 away = beyond.cwiseMax(0.0);
+      if (away.squaredNorm() == 0.0) {
+        Eigen::Index axis = 0;
+        beyond.maxCoeff(&axis);
+        away[axis] = 1.0;
+      }
+      for (int axis = 0; axis < 3; ++axis) {
+        if (p[axis] < 0.0) away[axis] = -away[axis];
+      }
+      return away.normalized();
+    }
+    case ShapeKind::kMesh:
+      break;
+  }
+  Vec3 away = Vec3::UnitX();
+  double farthest = -1e300;
+  for (const auto& plane : shape.mesh->planes) {
+    const double beyond = plane.normal.dot(p) - plane.offset_m;
+    if (beyond <= farthest) continue;
+    farthest = beyond;
+    away = plane.normal;
+  }
+  return away;
+}
+
 }  // namespace
 
 std::vector<Sphere> cover_with_spheres(const CollisionShape& shape, double max_excess_m) {
@@ -51,6 +155,9 @@ std::vector<Sphere> cover_with_spheres(const CollisionShape& shape, double max_e
       break;
     case ShapeKind::kBox:
       spheres = cover_box(shape.size_m, max_excess_m);
+      break;
+    case ShapeKind::kMesh:
+      spheres = cover_mesh(shape, max_excess_m);
       break;
   }
   for (Sphere& sphere : spheres) sphere.centre = shape.T_link_shape * sphere.centre;
@@ -85,8 +192,57 @@ double signed_distance(const CollisionShape& shape, const Vec3& p_shape) {
       if (beyond.maxCoeff() <= 0.0) return beyond.maxCoeff();
       return beyond.cwiseMax(0.0).norm();
     }
+    case ShapeKind::kMesh: {
+      double farthest = -1e300;
+      for (const auto& plane : shape.mesh->planes)
+        farthest = std::max(farthest, plane.normal.dot(p_shape) - plane.offset_m);
+      return farthest;
+    }
   }
   return 0.0;
+}
+
+double cube_distance(const CollisionShape& shape, const Vec3& p_shape,
+                     const Eigen::Matrix3d& R_shape_cube, double half_m) {
+  const double distance = signed_distance(shape, p_shape);
+  if (distance > 2.0 * half_m) return distance - std::sqrt(3.0) * half_m;  // near enough
+  // The shape lies behind the plane across `away` at that distance; the cube reaches this far back.
+  const Vec3 away = away_from(shape, p_shape);
+  return distance - half_m * (R_shape_cube.transpose() * away).lpNorm<1>();
+}
+
+CoverQuality measure_cover(const std::vector<CollisionShape>& shapes,
+                           const std::vector<Sphere>& spheres, int samples) {
+  CoverQuality quality;
+  if (spheres.empty()) return quality;
+  Box box;
+  for (const Sphere& sphere : spheres) {
+    box.extend(sphere.centre + Vec3::Constant(sphere.radius_m));
+    box.extend(sphere.centre - Vec3::Constant(sphere.radius_m));
+  }
+  std::vector<Pose> T_shape_link;
+  for (const CollisionShape& shape : shapes) T_shape_link.push_back(shape.T_link_shape.inverse());
+  const double step = std::cbrt(box.volume() / samples);
+  const double cell = step * step * step;
+  for (double x = box.min().x() + step / 2.0; x < box.max().x(); x += step) {
+    for (double y = box.min().y() + step / 2.0; y < box.max().y(); y += step) {
+      for (double z = box.min().z() + step / 2.0; z < box.max().z(); z += step) {
+        const Vec3 p(x, y, z);
+        double distance = 1e300;
+        for (std::size_t i = 0; i < shapes.size(); ++i)
+          distance = std::min(distance, signed_distance(shapes[i], T_shape_link[i] * p));
+        const bool covered =
+            std::any_of(spheres.begin(), spheres.end(), [&](const Sphere& sphere) {
+              return (p - sphere.centre).squaredNorm() <= sphere.radius_m * sphere.radius_m;
+            });
+        if (distance <= 0.0) quality.solid_m3 += cell;
+        if (!covered) continue;
+        quality.spheres_m3 += cell;
+        quality.excess_m = std::max(quality.excess_m, distance);
+      }
+    }
+  }
+  return quality;
 }
 
 }  // namespace canopeer

@@ -43,18 +43,28 @@ std::optional<ViewPose> ViewSampler::sample_once(const VoxelMap& map,
   return view;
 }
 
+// Target and position uniform, given that they are within the distances: a target is kept with a
+// chance in proportion to the part of the workspace in the box around its reach, and a position
+// drawn in that part is kept when it is in reach. Without the box most draws would be in vain.
 std::optional<ViewSampler::Sight> ViewSampler::draw_sight(const TargetSampler& targets,
                                                           TargetKind kind, Rng& rng) const {
-  const Box& box = frame_->workspace_base;
+  const Vec3 reach = Vec3::Constant(options_.max_target_distance_m);
+  const double most =
+      std::min(8.0 * reach.prod(), frame_->workspace_base.volume());  // no part is larger
+  const double nearest2 = options_.min_target_distance_m * options_.min_target_distance_m;
+  const double farthest2 = options_.max_target_distance_m * options_.max_target_distance_m;
   for (int i = 0; i < options_.max_draws; ++i) {
     const Target target = targets.draw(kind, rng);
-    const Vec3 camera_base(rng.uniform(box.min().x(), box.max().x()),
-                           rng.uniform(box.min().y(), box.max().y()),
-                           rng.uniform(box.min().z(), box.max().z()));
-    const Vec3 camera_world = frame_->T_world_base * camera_base;
-    const double distance = (camera_world - target.p_world).norm();
-    if (distance >= options_.min_target_distance_m && distance <= options_.max_target_distance_m) {
-      return Sight{target, camera_world};
+    const Vec3 target_base = T_base_world_ * target.p_world;
+    const Box part =
+        frame_->workspace_base.intersection(Box(target_base - reach, target_base + reach));
+    if (part.isEmpty() || rng.uniform() * most >= part.volume()) continue;
+    const Vec3 camera_base(rng.uniform(part.min().x(), part.max().x()),
+                           rng.uniform(part.min().y(), part.max().y()),
+                           rng.uniform(part.min().z(), part.max().z()));
+    const double distance2 = (camera_base - target_base).squaredNorm();
+    if (distance2 >= nearest2 && distance2 <= farthest2) {
+      return Sight{target, frame_->T_world_base * camera_base};
     }
   }
   return std::nullopt;
@@ -63,14 +73,14 @@ std::optional<ViewSampler::Sight> ViewSampler::draw_sight(const TargetSampler& t
 std::optional<Configuration> ViewSampler::reach(const Sight& sight, const CollisionChecker& checker,
                                                 WorkMeter& work) const {
   work.add(Work::view_ik);
-  std::vector<Configuration> solutions;
+  thread_local std::vector<Configuration> solutions;  // keeps its room from call to call
   ik_->solve_view(T_base_world_ * sight.camera_world, T_base_world_ * sight.target.p_world,
                   frame_->home, solutions);
   int checks = 0;
-  for (auto& q : solutions) {
+  for (const auto& q : solutions) {
     if (checks++ == options_.max_state_checks) break;
     work.add(Work::state_check);
-    if (checker.state_free(q)) return std::move(q);
+    if (checker.state_free(q)) return q;
   }
   return std::nullopt;
 }

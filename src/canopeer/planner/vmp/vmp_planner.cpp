@@ -134,8 +134,9 @@ bool VmpPlanner::edge_clear(NodeId a, NodeId b, WorkMeter& work) const {
   const bool clear = scene_.checker->edge_free(q_a, q_b, &states);
   work.add(Work::state_check, states);
   // The sphere cover rounds up. Close to leaves that would hold the arm where it is, so the real
-  // geometry decides.
-  return clear || judged_clear(q_a, q_b, work);
+  // geometry decides. It knows what is mapped only, so not where unknown space blocks.
+  if (clear || scene_.checker->options().unknown_blocks) return clear;
+  return judged_clear(q_a, q_b, work);
 }
 
 bool VmpPlanner::judged_clear(const Configuration& a, const Configuration& b,
