@@ -31,7 +31,8 @@ class StragglingArm : public Arm {
   double miss_rad_ = 0.0;
 };
 
-/// A camera in front of which a ball hangs.
+/// A camera that reports a ball where there is none: frames of it alone, as if taken from half a
+/// metre aside.
 class BallCamera : public Camera {
  public:
   explicit BallCamera(Camera& camera) : camera_(camera) {}
@@ -43,25 +44,25 @@ class BallCamera : public Camera {
   Expected<RgbdFrame> capture() override {
     auto frame = camera_.capture();
     if (!frame || !centre_) return frame;
-    const Vec3 c = frame->T_world_camera.inverse() * *centre_;
+    frame->T_world_camera = look_at(*centre_ - 0.5 * Vec3::UnitY(), *centre_);
     for (int v = 0; v < frame->depth.height(); ++v) {
       for (int u = 0; u < frame->depth.width(); ++u) {
-        const Vec3 ray = frame->intrinsics.ray(u, v);  // depth 1
-        const double b = ray.dot(c) / ray.squaredNorm();
-        const double gap = b * b - (c.squaredNorm() - radius_m_ * radius_m_) / ray.squaredNorm();
-        if (gap < 0.0) continue;
-        const double depth = b - std::sqrt(gap);
-        float& pixel = frame->depth.at(u, v);
-        if (depth > frame->intrinsics.min_range_m && !(pixel > 0.0F && pixel < depth)) {
-          pixel = static_cast<float>(depth);
-          frame->color.at(u, v) = {40, 120, 40};
-        }
+        frame->depth.at(u, v) = static_cast<float>(depth_of_ball(frame->intrinsics.ray(u, v)));
+        frame->color.at(u, v) = {40, 120, 40};
       }
     }
     return frame;
   }
 
  private:
+  /// Along a ray of depth 1 through a pixel; 0: the ball is not there.
+  [[nodiscard]] double depth_of_ball(const Vec3& ray) const {
+    const Vec3 centre(0.0, 0.0, 0.5);
+    const double b = ray.dot(centre) / ray.squaredNorm();
+    const double gap = b * b - (centre.squaredNorm() - radius_m_ * radius_m_) / ray.squaredNorm();
+    return gap < 0.0 ? 0.0 : b - std::sqrt(gap);
+  }
+
   Camera& camera_;
   std::optional<Vec3> centre_;
   double radius_m_ = 0.0;
@@ -78,8 +79,11 @@ class FaultsTest : public ::testing::Test {
     run_.planner->grow(0.2, run_.work);
   }
 
+  /// What is tested is how paths are executed, so they should be long.
   static VmpOptions long_paths() {
     VmpOptions options;
+    options.search = VmpOptions::Search::random_walk;
+    options.random_walk_views = 8;
     options.look_ahead_rad = 100.0;
     return options;
   }
@@ -94,15 +98,13 @@ class FaultsTest : public ::testing::Test {
     return T_world_camera.inverse() *
            vmp().graph().node(vmp().path().front()).view.T_world_camera.translation();
   }
-  /// Takes views until the next one lies well in the picture; false: that never happened.
-  bool go_on_until_next_is_in_the_picture() {
-    for (int i = 0; i < 60; ++i) {
+  /// Takes views until the next one is well away and not behind; false: that never happened.
+  bool go_on_until_next_is_far() {
+    for (int i = 0; i < 40; ++i) {
       if (!run_.take_view()) return false;
       run_.planner->grow(0.05, run_.work);
       const auto next = next_camera();
-      if (!next || next->z() < 0.22) continue;
-      if (std::abs(next->x()) < 0.6 * next->z() && std::abs(next->y()) < 0.45 * next->z())
-        return true;
+      if (next && next->norm() > 0.15 && next->z() > -0.01) return true;
     }
     return false;
   }
@@ -126,11 +128,11 @@ TEST_F(FaultsTest, AnArmThatStopsBesideItsGoalGetsANodeThereAndGoesOn) {
 }
 
 TEST_F(FaultsTest, SomethingThatTurnsUpOnTheWayTakesTheEdgeOutAndThePathIsPlannedAnew) {
-  ASSERT_TRUE(go_on_until_next_is_in_the_picture());
+  ASSERT_TRUE(go_on_until_next_is_far());
   const NodeId next = vmp().path().front();
   const ViewPose blocked = vmp().graph().node(next).view;
   const PlannerStatus before = run_.planner->status();
-  camera_.hang_ball(blocked.T_world_camera.translation(), 0.05);
+  camera_.hang_ball(blocked.T_world_camera.translation(), 0.03);
   for (int i = 0; i < 8; ++i) run_.look();  // what was seen free takes a few frames to be occupied
   ASSERT_FALSE(run_.world.checker.edge_free(run_.q, blocked.q));
   ASSERT_TRUE(run_.take_view());
@@ -141,7 +143,7 @@ TEST_F(FaultsTest, SomethingThatTurnsUpOnTheWayTakesTheEdgeOutAndThePathIsPlanne
 }
 
 TEST_F(FaultsTest, OffThePoseAndNoWayBackThePathIsPlannedFromWhereTheArmIs) {
-  ASSERT_TRUE(go_on_until_next_is_in_the_picture());
+  ASSERT_TRUE(go_on_until_next_is_far());
   const ViewPose blocked = vmp().graph().node(vmp().path().front()).view;
   const PlannerStatus before = run_.planner->status();
   // The arm creeps away by itself, and something is in the way back to the path.
@@ -150,7 +152,7 @@ TEST_F(FaultsTest, OffThePoseAndNoWayBackThePathIsPlannedFromWhereTheArmIs) {
   ASSERT_TRUE(run_.ports.arm->start({run_.q, away}).has_value());
   ASSERT_TRUE(run_.ports.arm->finish().has_value());
   run_.q = run_.ports.arm->configuration();
-  camera_.hang_ball(blocked.T_world_camera.translation(), 0.05);
+  camera_.hang_ball(blocked.T_world_camera.translation(), 0.03);
   for (int i = 0; i < 8; ++i) run_.look();
   ASSERT_TRUE(run_.take_view());
   const PlannerStatus after = run_.planner->status();

@@ -7,6 +7,9 @@
 #include "canopeer/geometry/voxel_ray.h"
 #include "canopeer/planner/vmp/vmp_planner.h"
 #include "canopeer/search/path_search.h"
+#include "canopeer/search/path_tree.h"
+#include "canopeer/search/random_walk.h"
+#include "canopeer/search/view_casts.h"
 #include "planner_fixture.h"
 
 // The search on the graph and map of a real segment, recomputed from scratch voxel by voxel.
@@ -40,49 +43,75 @@ Cells visible_by_definition(const VoxelMap& map, const Pose& T_world_camera, con
   return cells;
 }
 
-TEST(SearchOracle, UtilitiesAndVisibleSetsAlongThePathAreThoseOfTheDefinition) {
-  PlannerOptions options;
-  test::PlannerFixture run(std::make_unique<VmpPlanner>(options.vmp));
-  run.planner->grow(0.3, run.work);
-  // A few views on, so that most visible sets were kept from one frame to the next and some not.
-  for (int i = 0; i < 4; ++i) {
-    ASSERT_TRUE(run.take_view());
-    run.planner->grow(0.1, run.work);
-  }
-  const auto& vmp = dynamic_cast<const VmpPlanner&>(*run.planner);
-  ViewGraph graph = vmp.graph();
-  NodeId start{};
-  for (std::size_t i = 0; i < graph.id_count(); ++i) {
-    const auto id = static_cast<NodeId>(i);
-    if (!graph.node(id).removed && joint_distance(graph.node(id).view.q, run.q) < 1e-9) start = id;
-  }
-  const PathSearchOptions& search = options.vmp.path_search;
-  const VoxelMap& map = run.world.perception.map();
-  WorkMeter work;
-  const ViewPath path = search_path(graph, start, map, search, work);
-  ASSERT_GE(path.steps.size(), 2U);
-
-  Cells all;
-  double length_s = 0.0;
-  int roi_views = 0;
-  NodeId at = start;
-  for (const auto& step : path.steps) {
-    const ViewNode& node = graph.node(step.node);
-    const Cells cells = visible_by_definition(map, node.view.T_world_camera, search.fan);
-    ASSERT_EQ(static_cast<std::int64_t>(cells.size()), node.cast->unknown.count());
-    for (const auto& [x, y, z] : cells) {
-      ASSERT_TRUE(node.cast->unknown.contains(VoxelIndex(x, y, z)));
+/// A segment some views on, so that most visible sets were kept from one frame to the next.
+class SearchOracle : public ::testing::Test {
+ protected:
+  SearchOracle() : run_(std::make_unique<VmpPlanner>(VmpOptions{})) {
+    run_.planner->grow(0.3, run_.work);
+    for (int i = 0; i < 4; ++i) {
+      EXPECT_TRUE(run_.take_view());
+      run_.planner->grow(0.1, run_.work);
     }
-    const std::size_t before = all.size();
-    all.insert(cells.begin(), cells.end());
-    EXPECT_EQ(step.new_unknown, static_cast<std::int64_t>(all.size() - before));
-    length_s += graph.edge_time(at, step.node).value() + search.observe_s;
-    roi_views += node.view.kind == TargetKind::roi ? 1 : 0;
+    graph_ = dynamic_cast<const VmpPlanner&>(*run_.planner).graph();
+    for (std::size_t i = 0; i < graph_.id_count(); ++i) {
+      const auto id = static_cast<NodeId>(i);
+      const ViewNode& node = graph_.node(id);
+      if (!node.removed && joint_distance(node.view.q, run_.q) < 1e-9) start_ = id;
+    }
+  }
+
+  /// Visible sets, what each view adds, and U, from scratch along start → steps. Returns U.
+  double check_along(const std::vector<PathStep>& steps) {
+    Cells all;
+    double length_s = 0.0;
+    int roi_views = 0;
+    NodeId at = start_;
+    for (const auto& step : steps) {
+      const ViewNode& node = graph_.node(step.node);
+      const Cells cells = visible_by_definition(map(), node.view.T_world_camera, search_.fan);
+      EXPECT_EQ(static_cast<std::int64_t>(cells.size()), node.cast->unknown.count());
+      for (const auto& [x, y, z] : cells) {
+        EXPECT_TRUE(node.cast->unknown.contains(VoxelIndex(x, y, z)));
+      }
+      const std::size_t before = all.size();
+      all.insert(cells.begin(), cells.end());
+      EXPECT_EQ(step.new_unknown, static_cast<std::int64_t>(all.size() - before));
+      length_s += graph_.edge_time(at, step.node).value() + search_.observe_s;
+      roi_views += node.view.kind == TargetKind::roi ? 1 : 0;
+      at = step.node;
+    }
+    return static_cast<double>(all.size()) / length_s * (roi_views + 1) /
+           (static_cast<double>(steps.size()) + 1.0);
+  }
+  [[nodiscard]] const VoxelMap& map() const { return run_.world.perception.map(); }
+
+  test::PlannerFixture run_;
+  ViewGraph graph_;
+  NodeId start_{};
+  PathSearchOptions search_;
+};
+
+TEST_F(SearchOracle, UtilityAndVisibleSetsAlongTheChosenPathAreThoseOfTheDefinition) {
+  WorkMeter work;
+  const ViewPath path = search_path(graph_, start_, map(), search_, work);
+  ASSERT_FALSE(path.steps.empty());
+  EXPECT_NEAR(path.utility, check_along(path.steps), 1e-9 * path.utility);
+}
+
+TEST_F(SearchOracle, TheSameAlongAnyLongPath) {
+  Rng rng(5);
+  WorkMeter work;
+  const ViewPath walk = random_walk(graph_, start_, 8, rng);
+  ASSERT_GE(walk.steps.size(), 5U);
+  PathTree tree(graph_, start_);
+  NodeId at = start_;
+  for (const auto& step : walk.steps) {
+    ensure_casts(graph_, {step.node}, map(), search_.fan, work);
+    tree.expand(at);
+    tree.attach(step.node, step.time_s + search_.observe_s);
     at = step.node;
   }
-  const double utility = static_cast<double>(all.size()) / length_s * (roi_views + 1) /
-                         (static_cast<double>(path.steps.size()) + 1.0);
-  EXPECT_NEAR(path.utility, utility, 1e-9 * utility);
+  EXPECT_NEAR(tree.utility(at), check_along(tree.path_to(at).steps), 1e-9 * tree.utility(at));
 }
 
 }  // namespace

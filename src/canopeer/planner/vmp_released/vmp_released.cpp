@@ -12,7 +12,6 @@ VmpOptions released_options(VmpOptions options) {
 
   GraphBuilderOptions& builder = options.builder;
   builder.sampler.max_tries = 1;
-  builder.sampler.max_draws = 1;
   builder.sampler.rolls = 1;
   builder.sampler.max_state_checks = 1;
   builder.similarity.published_below = 0.2;
