@@ -1,5 +1,6 @@
 #include "canopeer/search/cell_union.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace canopeer {
@@ -23,13 +24,22 @@ CellUnion::Prepared CellUnion::prepare(const VoxelSet& set) {
 }
 
 void CellUnion::clear() {
-  for (const std::uint32_t place : written_) words_[place] = 0;
+  for (const std::uint32_t block : written_) {
+    std::fill_n(words_.begin() + block * kBlockSide, kBlockSide, std::uint64_t{0});
+  }
   written_.clear();
 }
 
 void CellUnion::add(const Prepared& set) {
-  for (std::size_t i = 0; i < set.places.size(); ++i) words_[set.places[i]] |= set.words[i];
-  written_.insert(written_.end(), set.places.begin(), set.places.end());
+  std::uint32_t last = UINT32_MAX;  // a block's slices follow each other
+  for (std::size_t i = 0; i < set.places.size(); ++i) {
+    const std::uint32_t place = set.places[i];
+    words_[place] |= set.words[i];
+    if (place / kBlockSide != last) {
+      last = place / kBlockSide;
+      written_.push_back(last);
+    }
+  }
 }
 
 std::int64_t CellUnion::count_new(const Prepared& set) const {

@@ -30,7 +30,7 @@ class CellUnion {
  private:
   BlockDirectory blocks_;
   std::vector<std::uint64_t> words_;    // by place: block number · 8 + slice
-  std::vector<std::uint32_t> written_;  // places that are not 0, maybe more than once
+  std::vector<std::uint32_t> written_;  // blocks that are not empty, maybe more than once
 };
 
 }  // namespace canopeer
