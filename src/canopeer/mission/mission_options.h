@@ -31,6 +31,9 @@ struct MissionOptions {
   std::string planner = "vmp";
   std::uint64_t seed = 1;
   CostTable costs;
+  /// Threads that work for the planner on the wall clock; 0: time is simulated, and background work
+  /// is done in the time the cost table gives it.
+  int background_workers = 0;
   VoxelMapOptions map;
   FusionOptions fusion;
   /// The robot's own links are taken out of every frame before anything else looks at it. A real

@@ -5,6 +5,7 @@
 #include "canopeer/base/rng.h"
 #include "canopeer/render/renderer.h"
 #include "canopeer/robot/straight_timing.h"
+#include "canopeer/sim/simulation_time.h"
 
 namespace canopeer {
 namespace {
@@ -27,6 +28,7 @@ struct Simulation::State {
         renderer(scene),
         sensor(renderer, scene, sensor_options(o)),
         judge(model, scene),
+        time(o.realtime),
         q(start),
         trolley(place) {}
 
@@ -36,7 +38,7 @@ struct Simulation::State {
   RgbdSensor sensor;
   MotionJudge judge;
   const VoxelMap* map = nullptr;
-  double now_s = 0.0;
+  SimulationTime time;
   Configuration q;
   TrolleyState trolley;
 };
@@ -44,9 +46,9 @@ struct Simulation::State {
 class Simulation::SimClock : public Clock {
  public:
   explicit SimClock(State& state) : state_(state) {}
-  double now_s() const override { return state_.now_s; }
-  void charge(double compute_s) override { state_.now_s += compute_s; }
-  void sleep(double seconds) override { state_.now_s += seconds; }
+  double now_s() const override { return state_.time.now_s(); }
+  void charge(double compute_s) override { state_.time.charge(compute_s); }
+  void sleep(double seconds) override { state_.time.pass_until(state_.time.now_s() + seconds); }
 
  private:
   State& state_;
@@ -69,14 +71,15 @@ class Simulation::SimArm : public Arm {
       if (i > 0) duration_s += motion_time(waypoints[i - 1], waypoints[i], state_.robot.limits());
     }
     // Judged now, on the map as it is when the motion starts.
+    const auto pause = state_.time.pause();
     const Verdict verdict = state_.judge.judge(waypoints, state_.trolley, state_.map);
     outcome_ = {with_arrival_error(waypoints.back()), verdict.collision, verdict.plant_contact};
-    end_s_ = state_.now_s + duration_s;
+    end_s_ = state_.time.now_s() + duration_s;
     return duration_s;
   }
 
   Expected<MotionOutcome> finish() override {
-    state_.now_s = std::max(state_.now_s, end_s_);
+    state_.time.pass_until(end_s_);
     state_.q = outcome_.q;
     return outcome_;
   }
@@ -119,8 +122,9 @@ class Simulation::SimTrolley : public Trolley {
                  ? 0.0
                  : axis_motion_time(distance, axis.velocity_limit, axis.acceleration_limit);
     };
-    state_.now_s += time(travel, std::abs(goal.travel_m - state_.trolley.travel_m)) +
-                    time(lift, std::abs(goal.lift_m - state_.trolley.lift_m));
+    state_.time.pass_until(state_.time.now_s() +
+                           time(travel, std::abs(goal.travel_m - state_.trolley.travel_m)) +
+                           time(lift, std::abs(goal.lift_m - state_.trolley.lift_m)));
     state_.trolley = goal;
     return {};
   }
@@ -134,10 +138,11 @@ class Simulation::SimCamera : public Camera {
   explicit SimCamera(State& state) : state_(state) {}
 
   Expected<RgbdFrame> capture() override {
+    const auto pause = state_.time.pause();
     RgbdFrame frame = state_.sensor.capture(
         state_.robot.T_world_base(state_.trolley) * state_.robot.T_base_camera(state_.q),
         frames_++);
-    frame.time_s = state_.now_s;
+    frame.time_s = state_.time.now_s();
     return frame;
   }
 
