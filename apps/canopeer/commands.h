@@ -23,6 +23,7 @@ struct RunArguments {
   std::optional<double> time_per_segment_s;
   std::string compute_table;
   int threads = 0;  ///< 0: all cores
+  bool realtime = false;
   std::string out;
   bool quiet = false;
   bool profile = false;
@@ -60,8 +61,33 @@ struct ImportArguments {
   std::string out;
 };
 
+struct BenchArguments {
+  std::vector<std::string> missions;
+  std::vector<std::string> planners = {"vmp", "vmp_released@reference", "rvp", "rvp@reference"};
+  std::vector<double> budgets_s;  ///< seconds per segment; empty: the missions'
+  std::vector<std::string> settings;
+  int runs = 5;
+  std::uint64_t first_seed = 1;
+  std::optional<int> segments;
+  int jobs = 1;     ///< processes at a time
+  int threads = 0;  ///< of each run; 0: the cores shared among the jobs
+  std::string shard;
+  std::string out;
+  bool keep_maps = false;
+  bool report_only = false;
+  bool quiet = false;
+};
+
+struct CalibrateArguments {
+  MissionArguments mission;  ///< none: the smoke mission that ships with the program
+  std::string out;
+  bool quiet = false;
+};
+
 // The commands. Each ends by returning, or by throwing Stop.
 void run(const RunArguments& arguments);
+void bench(const BenchArguments& arguments);
+void calibrate(const CalibrateArguments& arguments);
 void report(const std::string& directory);
 void scene_render(const SceneArguments& arguments);
 void scene_inspect(const SceneArguments& arguments);

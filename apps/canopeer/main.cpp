@@ -20,17 +20,68 @@ void add_run(CLI::App& app, RunArguments& arguments) {
   CLI::App* command =
       app.add_subcommand("run", "Run a mission in simulation and write the results");
   add_mission(*command, arguments.mission);
-  command->add_option("--planner", arguments.planner, "Planner, e.g. vmp");
+  command->add_option("--planner", arguments.planner,
+                      "Planner: vmp, vmp_released, rvp, random, coverage");
   command->add_option("--segments", arguments.segments, "Only the first K segments");
   command->add_option("--time-per-segment", arguments.time_per_segment_s, "Seconds per segment");
   command->add_option("--threads", arguments.threads, "Threads at most (0: all cores)")
       ->check(CLI::Range(0, 1024));
   command->add_option("--compute-table", arguments.compute_table,
-                      "What computing costs: default, free, or a file");
+                      "What computing costs: default, reference, free, this-machine, or a file");
+  command->add_flag("--realtime", arguments.realtime,
+                    "On the wall clock, with worker threads, in place of simulated time");
   command->add_option("--out", arguments.out, "Directory for the results");
   command->add_flag("--quiet", arguments.quiet, "Print errors only");
   command->add_flag("--profile", arguments.profile, "Print where the wall time went");
   command->callback([&arguments] { run(arguments); });
+}
+
+void add_bench(CLI::App& app, BenchArguments& a) {
+  CLI::App* command = app.add_subcommand(
+      "bench",
+      "Compare planners on the same worlds and seeds; the same command goes on after a kill");
+  command->add_option("missions", a.missions, "Mission files (YAML)")->required();
+  command
+      ->add_option("--planners", a.planners,
+                   "Planners, each as NAME or NAME@COMPUTE-TABLE, separated by commas")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_option("--runs", a.runs, "Seeds per planner and mission")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--first-seed", a.first_seed, "The first of them")->capture_default_str();
+  command
+      ->add_option("--budgets", a.budgets_s,
+                   "Seconds per segment, separated by commas; each is a run of its own")
+      ->delimiter(',')
+      ->check(CLI::Range(1.0, 36000.0));
+  command->add_option("--segments", a.segments, "Only the first K segments")
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--set", a.settings, "Override a setting in all runs (repeatable)")
+      ->expected(1)
+      ->take_all();
+  command->add_option("--jobs", a.jobs, "Runs at a time, each a process")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->add_option("--threads", a.threads, "Threads of each run (0: the cores shared out)")
+      ->check(CLI::Range(0, 1024));
+  command->add_option(
+      "--shard", a.shard,
+      "i/n: make every n-th run only, from the i-th (several machines, one folder)");
+  command->add_option("--out", a.out, "Folder of the runs and the comparison")->required();
+  command->add_flag("--keep-maps", a.keep_maps, "Keep each run's maps and pictures");
+  command->add_flag("--report-only", a.report_only, "Compare the runs that are there; make none");
+  command->add_flag("--quiet", a.quiet, "Print errors only");
+  command->callback([&a] { bench(a); });
+}
+
+void add_calibrate(CLI::App& app, CalibrateArguments& a) {
+  CLI::App* command = app.add_subcommand(
+      "calibrate", "Measure what computing costs on this machine: compute table this-machine");
+  command->add_option("mission", a.mission.path, "Mission to measure on (default: smoke)");
+  command->add_option("--out", a.out, "File to write (default: where runs find it by name)");
+  command->add_flag("--quiet", a.quiet, "Print errors only");
+  command->callback([&a] { calibrate(a); });
 }
 
 void add_report(CLI::App& app, std::string& directory) {
@@ -154,6 +205,10 @@ int parse_and_run(int argc, char** argv) {
   SceneArguments scene_arguments;
   ImportArguments import_arguments;
   add_run(app, run_arguments);
+  BenchArguments bench_arguments;
+  CalibrateArguments calibrate_arguments;
+  add_bench(app, bench_arguments);
+  add_calibrate(app, calibrate_arguments);
   add_report(app, report_directory);
   add_scene(app, scene_arguments, import_arguments);
   MapArguments map_arguments;

@@ -1,12 +1,14 @@
 #include <oneapi/tbb/global_control.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "canopeer/config/robot_file.h"
 #include "canopeer/mission/mission.h"
@@ -64,6 +66,14 @@ void print_profile(const StageTimer& timer, double wall_s) {
               static_cast<double>(usage.ru_maxrss) / 1024.0);
 }
 
+/// One thread acts and searches, the others grow the graph.
+void run_on_the_wall_clock(MissionFile& file, int threads) {
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());
+  file.simulation.realtime = true;
+  file.mission.background_workers = std::max(1, (threads > 0 ? threads : cores) - 1);
+  file.compute_table = "wall-clock";
+}
+
 /// The home states of the sides a mission visits must exist before anything moves.
 void check_sides(const MissionFile& file, const RobotModel& robot) {
   for (const auto& segment : file.mission.segments) {
@@ -88,7 +98,8 @@ void check_sides(const MissionFile& file, const RobotModel& robot) {
 
 void run(const RunArguments& arguments) {
   const auto begin = std::chrono::steady_clock::now();
-  const MissionFile file = load(arguments.mission, overrides_of(arguments));
+  MissionFile file = load(arguments.mission, overrides_of(arguments));
+  if (arguments.realtime) run_on_the_wall_clock(file, arguments.threads);
   const RobotModel robot = value_or_stop(load_robot(file.robot), kBadInput);
   const ArmIk ik = value_or_stop(ArmIk::make(robot), kBadInput);
   check_sides(file, robot);

@@ -4,6 +4,7 @@
 
 #include "canopeer/base/atomic_file.h"
 #include "canopeer/eval/metrics.h"
+#include "canopeer/eval/surface_score.h"
 #include "canopeer/fruit/fruits_csv.h"
 #include "canopeer/map/octomap_file.h"
 #include "canopeer/record/timeline_csv.h"
@@ -73,6 +74,11 @@ Expected<Summary> write_results(const fs::path& out, const RunHeader& header,
   const RunMetrics metrics =
       compute_metrics(mission.record(), mission.fruits().fruits(), scene.fruits);
   Summary summary = summarize(header, mission, metrics);
+  if (const auto surface = surface_score(scene, mission.fruits().cloud().points)) {
+    summary.surface_precision = surface->precision;
+    summary.surface_recall = surface->recall;
+    summary.surface_f1 = surface->f1;
+  }
   summary.wall_time_s = wall_time_s;
   if (auto ok = write_summary(out / "summary.json", summary); !ok)
     return tl::unexpected(ok.error());

@@ -15,7 +15,7 @@ using testing_support::source_root;
 
 /// "Suite.Name" of every test in the tree.
 std::set<std::string> all_tests() {
-  static const std::regex test(R"(^TEST(?:_F)?\((\w+),\s*(\w+)\))");
+  static const std::regex test(R"(^TEST(?:_[FP])?\((\w+),\s*(\w+)\))");
   std::set<std::string> names;
   for (const auto& file : source_files("tests")) {
     for (const std::string& line : lines_of(file)) {

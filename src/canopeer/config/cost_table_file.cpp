@@ -1,5 +1,6 @@
 #include "canopeer/config/cost_table_file.h"
 
+#include <cstdio>
 #include <string>
 
 #include "canopeer/config/yaml_reader.h"
@@ -17,6 +18,17 @@ Expected<CostTable> load_cost_table(const std::filesystem::path& path) {
   }
   if (auto done = file->finish(); !done) return tl::unexpected(done.error());
   return table;
+}
+
+std::string cost_table_text(const CostTable& table, std::string_view comment) {
+  std::string text = "# " + std::string(comment) + "\nseconds_per_unit:\n";
+  for (std::size_t i = 0; i < kWorkKinds; ++i) {
+    const auto kind = static_cast<Work>(i);
+    char number[32];
+    std::snprintf(number, sizeof number, "%.3g", table[kind]);
+    text += "  " + std::string(work_name(kind)) + ": " + number + "\n";
+  }
+  return text;
 }
 
 }  // namespace canopeer

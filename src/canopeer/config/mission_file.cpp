@@ -148,6 +148,25 @@ void read_execution(YamlMap execution, VmpOptions& o) {
   o.min_nodes = execution.integer("min_nodes", o.min_nodes, 1, 100000);
 }
 
+void read_rvp(YamlMap rvp, RvpOptions& o) {
+  o.views_per_kind = rvp.integer("views_per_kind", o.views_per_kind, 1, 100000);
+  o.min_distance_m = rvp.number("min_distance_m", o.min_distance_m, {0.05, 10.0});
+  o.max_distance_m = rvp.number("max_distance_m", o.max_distance_m, {0.05, 10.0});
+  if (o.min_distance_m >= o.max_distance_m) {
+    rvp.complain("max_distance_m", "expected more than min_distance_m");
+  }
+  o.distance_weight = rvp.number("distance_weight", o.distance_weight, {0.0, 100.0});
+  o.roi_threshold = rvp.number("roi_threshold", o.roi_threshold, {-100.0, 100.0});
+  o.max_plans = rvp.integer("max_plans", o.max_plans, 1, 1000);
+  o.motion.max_iterations = rvp.integer("max_iterations", o.motion.max_iterations, 1, 10000000);
+}
+
+void read_coverage(YamlMap coverage, SerpentineOptions& o) {
+  o.spacing_m = coverage.number("spacing_m", o.spacing_m, {0.02, 10.0});
+  o.row_distance_m = coverage.number("row_distance_m", o.row_distance_m, {0.0, 10.0});
+  o.tilt_rad = coverage.number("tilt_deg", o.tilt_rad / kRad, {0.0, 85.0}) * kRad;
+}
+
 void read_collision(YamlMap collision, CollisionOptions& o) {
   o.map_padding_m = collision.number("map_padding_m", o.map_padding_m, {0.0, 0.5});
   o.self_padding_m = collision.number("self_padding_m", o.self_padding_m, {0.0, 0.5});
@@ -173,7 +192,9 @@ Expected<CostTable> find_cost_table(const std::string& name, const fs::path& mis
     const fs::path path = dir / (name + ".yaml");
     if (fs::exists(path)) return load_cost_table(path);
   }
-  return fail("compute table '" + name + "' not found; expected 'default', 'free' or a .yaml file");
+  return fail("compute table '" + name +
+              "' not found; expected 'default', 'reference', 'free', 'this-machine' (after "
+              "'canopeer calibrate'), or a .yaml file");
 }
 
 }  // namespace
@@ -192,6 +213,8 @@ Expected<MissionFile> load_mission(const fs::path& path, const Overrides& overri
   result.robot = path.parent_path() / file->required_text("robot");
   mission.planner = file->choice("planner", mission.planner, planner_names());
   mission.seed = static_cast<std::uint64_t>(file->number("seed", 1, {0, 9007199254740992.0}));
+  // The published system is as fast as it was, unless asked otherwise.
+  if (mission.planner == "vmp_released") result.compute_table = "reference";
   result.compute_table = file->text("compute_table", result.compute_table);
   read_segments(*file, mission);
   if (auto ok = read_world(file->map("world"), result.world); !ok) {
@@ -203,6 +226,8 @@ Expected<MissionFile> load_mission(const fs::path& path, const Overrides& overri
   read_graph(file->map("graph"), vmp.builder);
   read_search(file->map("search"), vmp);
   read_execution(file->map("execution"), vmp);
+  read_rvp(file->map("rvp"), mission.planners.rvp);
+  read_coverage(file->map("coverage"), mission.planners.coverage.scan);
   read_collision(file->map("collision"), mission.collision);
   read_detector(file->map("detector"), mission.detector);
   result.simulation.arrival_error_rad =

@@ -68,9 +68,9 @@ Expected<void> Mission::run(RecordWriter& writer) {
 }
 
 Expected<void> Mission::State::run_segments(Planner& planner, RecordWriter& writer) {
-  MissionContext context{robot,  ik,         judge,      ports,      options,
-                         stop,   perception, planner,    traveller,  writer,
-                         record, timer,      foreground, background, progress};
+  Background aside(planner, *ports.clock, options.background_workers, background);
+  MissionContext context{robot, ik,        judge,  ports,  options, stop,       perception, planner,
+                         aside, traveller, writer, record, timer,   foreground, progress};
   traveller.forget_way(ports.arm->configuration());
   for (std::size_t i = 0; i < options.segments.size() && !stop; ++i) {
     if (auto ok = drive(i, writer); !ok) return ok;

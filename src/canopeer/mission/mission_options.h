@@ -30,6 +30,9 @@ struct MissionOptions {
   std::string planner = "vmp";
   std::uint64_t seed = 1;
   CostTable costs;
+  /// Threads that work for the planner on the wall clock; 0: time is simulated, and background work
+  /// is done in the time the cost table gives it.
+  int background_workers = 0;
   VoxelMapOptions map;
   FusionOptions fusion;
   double field_truncation_m = 0.15;  ///< distances to occupied voxels are known up to here

@@ -30,8 +30,10 @@ SegmentRunner::SegmentRunner(MissionContext& context, int index)
       frame_(segment_frame(context.robot, context.options.segments[static_cast<std::size_t>(index)],
                            index)),
       checker_(context.robot, frame_.trolley, context.options.collision) {
-  context_.perception.move_field(frame_.T_world_base.translation());
-  checker_.set_map(&context_.perception.field());
+  context_.background.alone([&] {
+    context_.perception.move_field(frame_.T_world_base.translation());
+    checker_.set_map(&context_.perception.field());
+  });
 }
 
 Expected<void> SegmentRunner::run(const Configuration& home_after) {
@@ -55,7 +57,8 @@ Expected<void> SegmentRunner::run(const Configuration& home_after) {
   scene.costs = &context_.options.costs;
   scene.segment = frame_;
   scene.seed = context_.options.seed;
-  context_.planner.begin_segment(scene);
+  context_.background.alone([&] { context_.planner.begin_segment(scene); });
+  context_.background.go();
 
   if (auto ok = observe(TargetKind::none, std::nullopt); !ok) return ok;
   while (clock.now_s() - start_s_ < context_.options.segment_time_s && !context_.stop) {
@@ -86,8 +89,9 @@ Expected<void> SegmentRunner::observe(TargetKind kind, std::optional<std::int64_
   auto frame = context_.timer.time("camera", [&] { return context_.ports.camera->capture(); });
   if (!frame) return fail_in("camera", frame.error());
   WorkMeter work;
-  Observation seen =
-      context_.perception.observe(*frame, frame_.sampling_region_world, work, context_.timer);
+  Observation seen = context_.background.alone([&] {
+    return context_.perception.observe(*frame, frame_.sampling_region_world, work, context_.timer);
+  });
   ViewEvent view;
   view.segment = index_;
   view.view = static_cast<int>(context_.record.views.size());
@@ -101,7 +105,8 @@ Expected<void> SegmentRunner::observe(TargetKind kind, std::optional<std::int64_
   view.realised_gain = seen.fused.newly_known;
   view.fused_points = seen.fused.fused_points;
   view.roi_voxels = context_.perception.map().roi_voxels();
-  const PlannerStatus status = context_.planner.status();
+  const PlannerStatus status =
+      context_.background.beside([&] { return context_.planner.status(); });
   view.graph_nodes = status.graph_nodes;
   view.graph_edges = status.graph_edges;
   for (const auto& fruit : context_.perception.fruits().fruits()) {
@@ -111,8 +116,9 @@ Expected<void> SegmentRunner::observe(TargetKind kind, std::optional<std::int64_
   context_.record.views.push_back(std::move(view));
   report_progress();
 
-  context_.timer.time("planner: new map",
-                      [&] { context_.planner.map_changed(std::move(seen.change)); });
+  context_.timer.time("planner: new map", [&] {
+    context_.background.beside([&] { context_.planner.map_changed(std::move(seen.change)); });
+  });
   pay(work);
   return {};
 }
@@ -120,7 +126,8 @@ Expected<void> SegmentRunner::observe(TargetKind kind, std::optional<std::int64_
 Decision SegmentRunner::decide() {
   WorkMeter work;
   const Decision decision = context_.timer.time("planner: search", [&] {
-    return context_.planner.decide(context_.ports.arm->configuration(), work);
+    return context_.background.beside(
+        [&] { return context_.planner.decide(context_.ports.arm->configuration(), work); });
   });
   pay(work);
   return decision;
@@ -146,8 +153,7 @@ Expected<void> SegmentRunner::move(const std::string& kind,
   }
   const auto duration = context_.timer.time("arm", [&] { return arm.start(waypoints); });
   if (!duration) return fail_in("arm", duration.error());
-  context_.timer.time("planner: graph",
-                      [&] { context_.planner.grow(*duration, context_.background); });
+  context_.timer.time("planner: graph", [&] { context_.background.time_passes(*duration); });
   const auto outcome = context_.timer.time("arm", [&] { return arm.finish(); });
   if (!outcome) return fail_in("arm", outcome.error());
   context_.traveller.took(waypoints);
@@ -196,14 +202,12 @@ void SegmentRunner::pay(const WorkMeter& work) {
   context_.foreground.merge(work);
   const double seconds = work.seconds(context_.options.costs);
   context_.ports.clock->charge(seconds);
-  context_.timer.time("planner: graph",
-                      [&] { context_.planner.grow(seconds, context_.background); });
+  context_.timer.time("planner: graph", [&] { context_.background.time_passes(seconds); });
 }
 
 void SegmentRunner::pass(double seconds) {
   context_.ports.clock->sleep(seconds);
-  context_.timer.time("planner: graph",
-                      [&] { context_.planner.grow(seconds, context_.background); });
+  context_.timer.time("planner: graph", [&] { context_.background.time_passes(seconds); });
 }
 
 void SegmentRunner::report_progress() const {

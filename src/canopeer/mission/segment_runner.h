@@ -3,6 +3,7 @@
 #include <atomic>
 #include <string>
 
+#include "canopeer/mission/background.h"
 #include "canopeer/mission/mission.h"
 #include "canopeer/mission/traveller.h"
 
@@ -18,12 +19,12 @@ struct MissionContext {
   const std::atomic<bool>& stop;
   Perception& perception;
   Planner& planner;
+  Background& background;
   Traveller& traveller;
   RecordWriter& writer;
   RunRecord& record;
   StageTimer& timer;
   WorkMeter& foreground;  ///< the mission's clock pays for it
-  WorkMeter& background;  ///< done while the arm moves or the foreground computes
   const ProgressSink& progress;
 };
 
@@ -31,6 +32,9 @@ struct MissionContext {
 class SegmentRunner {
  public:
   SegmentRunner(MissionContext& context, int index);
+  SegmentRunner(const SegmentRunner&) = delete;
+  SegmentRunner& operator=(const SegmentRunner&) = delete;
+  ~SegmentRunner() { context_.background.rest(); }
 
   /// Senses, plans and acts until the time is up; then takes the arm to `home_after`.
   [[nodiscard]] Expected<void> run(const Configuration& home_after);

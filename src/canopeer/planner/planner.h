@@ -57,14 +57,28 @@ struct MapChange {
   FrontierTargets targets;       ///< all of them, re-extracted inside the sampling region
 };
 
+/// All zero for planners without a graph.
 struct PlannerStatus {
   int graph_nodes = 0;
   int graph_edges = 0;
+  // In the present segment:
+  int searches = 0;
+  int blocked_edges = 0;   ///< taken out because the new map blocks them
+  int off_pose_nodes = 0;  ///< put in because the arm was where no node is, the start included
 };
 
-/// A view planner. The mission calls it from one thread: begin_segment, then for every view
-/// map_changed and decide (again after `wait`), and grow for the time that passes while the arm
-/// moves or decide is paid for.
+/// A piece of background work. run() reads the map and the checker, which do not change meanwhile,
+/// and nothing else of the planner, so it may go on in another thread beside the planner's calls.
+class BackgroundTask {
+ public:
+  virtual ~BackgroundTask() = default;
+  virtual void run() = 0;
+};
+
+/// A view planner. The mission calls it from one thread at a time: begin_segment, then for every
+/// view map_changed and decide (again after `wait`). For the time that passes while the arm moves
+/// or decide is paid for it calls grow (in simulated time), or time_passes, with worker threads
+/// that make tasks (on the wall clock).
 class Planner {
  public:
   virtual ~Planner() = default;
@@ -75,9 +89,15 @@ class Planner {
   virtual void map_changed(MapChange change) = 0;
   /// What to do with the arm at `q`. Foreground: the mission's clock pays for the work counted.
   virtual Decision decide(const Configuration& q, WorkMeter& work) = 0;
-  /// Background work worth `budget_s` by the cost table (a little more is charged to the next
-  /// call).
-  virtual void grow(double budget_s, WorkMeter& work) = 0;
+  /// So much mission time has passed since the last call.
+  virtual void time_passes(double seconds) = 0;
+  /// The next piece of background work; null: there is none at present.
+  virtual std::unique_ptr<BackgroundTask> next_task() { return nullptr; }
+  /// Takes over what a task that has run found; tasks made before the last frame too.
+  virtual void finish_task(BackgroundTask& /*task*/, WorkMeter& /*work*/) {}
+  /// Time passes, with background work worth `budget_s` by the cost table (a little more is charged
+  /// to the next call).
+  virtual void grow(double budget_s, WorkMeter& /*work*/) { time_passes(budget_s); }
   [[nodiscard]] virtual PlannerStatus status() const = 0;
 };
 

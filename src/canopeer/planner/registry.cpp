@@ -3,6 +3,8 @@
 #include <functional>
 #include <utility>
 
+#include "canopeer/planner/vmp_released/vmp_released.h"
+
 namespace canopeer {
 namespace {
 
@@ -12,6 +14,11 @@ const std::vector<std::pair<std::string, Factory>>& factories() {
   // One line a planner; its source and departures are in its own folder.
   static const std::vector<std::pair<std::string, Factory>> kFactories = {
       {"vmp", [](const PlannerOptions& o) { return std::make_unique<VmpPlanner>(o.vmp); }},
+      {"vmp_released", [](const PlannerOptions& o) { return make_vmp_released(o.vmp); }},
+      {"rvp", [](const PlannerOptions& o) { return std::make_unique<RvpPlanner>(o.rvp); }},
+      {"random", [](const PlannerOptions& o) { return std::make_unique<RandomPlanner>(o.random); }},
+      {"coverage",
+       [](const PlannerOptions& o) { return std::make_unique<CoveragePlanner>(o.coverage); }},
   };
   return kFactories;
 }

@@ -36,6 +36,9 @@ void for_each_field(AnySummary& summary, Visit&& visit) {
   visit("time_to_90pct_s", summary.time_to_90pct_s);
   visit("auc", summary.auc);
   visit("roi_surface_coverage", summary.roi_surface_coverage);
+  visit("surface_precision", summary.surface_precision);
+  visit("surface_recall", summary.surface_recall);
+  visit("surface_f1", summary.surface_f1);
   visit("volume_error_mean", summary.volume_error_mean);
   visit("centre_error_mean_m", summary.centre_error_mean_m);
   visit("joint_path_length_rad", summary.joint_path_length_rad);

@@ -37,6 +37,9 @@ struct Summary {
   std::optional<double> time_to_90pct_s;
   std::optional<double> auc;  ///< mean of detected / fruits_total over the mission time
   std::optional<double> roi_surface_coverage;
+  std::optional<double> surface_precision;  ///< of fruits.ply against the true fruits, 0.015 m
+  std::optional<double> surface_recall;
+  std::optional<double> surface_f1;
   std::optional<double> volume_error_mean;
   std::optional<double> centre_error_mean_m;
 

@@ -31,11 +31,13 @@ svg .truth { fill: none; stroke: var(--ink); stroke-width: 1.3; }
 svg .missed { fill: none; stroke: var(--ink); stroke-width: 1.6; stroke-dasharray: 3 2.5; }
 svg .camera { fill: var(--muted); fill-opacity: 0.45; }
 svg .path { fill: none; stroke: var(--muted); stroke-opacity: 0.3; stroke-width: 0.8; }
+svg .band { stroke: none; fill-opacity: 0.16; }
+svg .dot { stroke: none; fill-opacity: 0.45; }
 .c0 { stroke: var(--c0); } .c1 { stroke: var(--c1); } .c2 { stroke: var(--c2); }
 .c3 { stroke: var(--c3); } .c4 { stroke: var(--c4); } .c5 { stroke: var(--c5); }
-.box.c0, .solid.c0 { fill: var(--c0); } .box.c1, .solid.c1 { fill: var(--c1); }
-.box.c2, .solid.c2 { fill: var(--c2); } .box.c3, .solid.c3 { fill: var(--c3); }
-.box.c4, .solid.c4 { fill: var(--c4); } .box.c5, .solid.c5 { fill: var(--c5); }
+.box.c0, .solid.c0, .band.c0, .dot.c0 { fill: var(--c0); } .box.c1, .solid.c1, .band.c1, .dot.c1 { fill: var(--c1); }
+.box.c2, .solid.c2, .band.c2, .dot.c2 { fill: var(--c2); } .box.c3, .solid.c3, .band.c3, .dot.c3 { fill: var(--c3); }
+.box.c4, .solid.c4, .band.c4, .dot.c4 { fill: var(--c4); } .box.c5, .solid.c5, .band.c5, .dot.c5 { fill: var(--c5); }
 )css";
 }
 

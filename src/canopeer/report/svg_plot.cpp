@@ -8,6 +8,7 @@
 
 #include "canopeer/report/axis_ticks.h"
 #include "canopeer/report/html_text.h"
+#include "canopeer/report/plot_style.h"
 
 namespace canopeer {
 namespace {
@@ -62,7 +63,19 @@ void SvgPlot::include(double x, double y) {
 
 void SvgPlot::add_line(std::string name, int colour, Points points) {
   for (const auto& [x, y] : points) include(x, y);
-  series_.push_back({std::move(name), colour, std::move(points)});
+  series_.push_back({std::move(name), colour, std::move(points), false});
+}
+
+void SvgPlot::add_band(int colour, const Points& low, const Points& high) {
+  Band band{colour, low};
+  band.outline.insert(band.outline.end(), high.rbegin(), high.rend());
+  for (const auto& [x, y] : band.outline) include(x, y);
+  bands_.push_back(std::move(band));
+}
+
+void SvgPlot::add_dots(std::string name, int colour, Points points) {
+  for (const auto& [x, y] : points) include(x, y);
+  series_.push_back({std::move(name), colour, std::move(points), true});
 }
 
 void SvgPlot::add_steps(std::string name, int colour, const Points& points) {
@@ -162,12 +175,37 @@ std::string SvgPlot::marks_svg(const Frame& f) const {
   return svg;
 }
 
+std::string SvgPlot::bands_svg(const Frame& f) const {
+  std::string svg;
+  for (const Band& band : bands_) {
+    std::string points;
+    for (const auto& [x, y] : band.outline) points += fmt::format("{:.1f},{:.1f} ", f.x(x), f.y(y));
+    svg += fmt::format("<polygon class=\"band c{}\" points=\"{}\"/>\n", band.colour % 6, points);
+  }
+  return svg;
+}
+
+std::string SvgPlot::dots_svg(const Frame& f, const Series& series) const {
+  std::string svg;
+  for (const auto& [x, y] : series.points) {
+    if (!std::isfinite(x) || !std::isfinite(y)) continue;
+    svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"1.8\" class=\"dot c{}\"/>\n",
+                       f.x(x), f.y(y), series.colour % 6);
+  }
+  return svg;
+}
+
 std::string SvgPlot::lines_svg(const Frame& f) const {
   std::string svg;
   // An earlier line is wider, so that it still shows where a later one lies on it.
-  double width = 2.0 + 1.8 * static_cast<double>(series_.size());
+  const double step = bands_.empty() ? 1.8 : 0.0;
+  double width = 2.0 + step * static_cast<double>(series_.size());
   for (const Series& series : series_) {
-    width -= 1.8;
+    width -= step;
+    if (series.dots) {
+      svg += dots_svg(f, series);
+      continue;
+    }
     std::string points;
     for (const auto& [x, y] : series.points) {
       if (std::isfinite(x) && std::isfinite(y)) {
@@ -239,7 +277,16 @@ std::string SvgPlot::svg(int width_px, int height_px) const {
              "<svg class=\"plot\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" "
              "width=\"{0}\" height=\"{1}\" role=\"img\">\n<title>{2}</title>\n",
              width_px, height_px, escape_html(labels_.title)) +
-         axes_svg(f) + marks_svg(f) + boxes_svg(f) + lines_svg(f) + legend_svg(f) + "</svg>\n";
+         axes_svg(f) + marks_svg(f) + bands_svg(f) + boxes_svg(f) + lines_svg(f) + legend_svg(f) +
+         "</svg>\n";
+}
+
+std::string SvgPlot::svg_file(int width_px, int height_px) const {
+  std::string text = svg(width_px, height_px);
+  text.insert(text.find('\n') + 1,
+              "<style>" + std::string(plot_style()) +
+                  "</style>\n<rect width=\"100%\" height=\"100%\" style=\"fill:var(--card)\"/>\n");
+  return text;
 }
 
 }  // namespace canopeer

@@ -27,6 +27,11 @@ class SvgPlot {
   void add_line(std::string name, int colour, Points points);
   /// The value holds until the next point.
   void add_steps(std::string name, int colour, const Points& points);
+  /// The area between two curves, behind the lines; points are (x, low) and (x, high) with the same
+  /// x each.
+  void add_band(int colour, const Points& low, const Points& high);
+  /// Dots, no line between them.
+  void add_dots(std::string name, int colour, Points points);
   /// Boxes stand side by side over their labels; not to be mixed with lines.
   void add_box(std::string label, int colour, SampleSpread spread);
   /// Thin line across the plot, e.g. where a segment begins; the label may be empty.
@@ -40,12 +45,19 @@ class SvgPlot {
   /// `width_px` × `height_px` are the size it is meant to be shown at: text keeps its size, narrow
   /// plots get fewer ticks.
   [[nodiscard]] std::string svg(int width_px, int height_px) const;
+  /// The same as a file of its own, with colours and background inside.
+  [[nodiscard]] std::string svg_file(int width_px, int height_px) const;
 
  private:
   struct Series {
     std::string name;
     int colour = 0;
     Points points;
+    bool dots = false;
+  };
+  struct Band {
+    int colour = 0;
+    Points outline;
   };
   struct BoxSeries {
     std::string label;
@@ -60,12 +72,15 @@ class SvgPlot {
   [[nodiscard]] Frame frame(int width_px, int height_px) const;
   [[nodiscard]] std::string axes_svg(const Frame& f) const;
   [[nodiscard]] std::string marks_svg(const Frame& f) const;
+  [[nodiscard]] std::string bands_svg(const Frame& f) const;
   [[nodiscard]] std::string lines_svg(const Frame& f) const;
+  [[nodiscard]] std::string dots_svg(const Frame& f, const Series& series) const;
   [[nodiscard]] std::string boxes_svg(const Frame& f) const;
   [[nodiscard]] std::string legend_svg(const Frame& f) const;
 
   PlotLabels labels_;
   std::vector<Series> series_;
+  std::vector<Band> bands_;
   std::vector<BoxSeries> boxes_;
   std::vector<Mark> x_marks_;
   std::vector<Mark> y_marks_;

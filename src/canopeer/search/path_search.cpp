@@ -46,13 +46,13 @@ ViewPath search_path(ViewGraph& graph, NodeId start, const VoxelMap& map,
 
     const auto neighbors = unvisited_neighbors(graph, id);
     ensure_casts(graph, neighbors, map, options.fan, work);
-    const VoxelSet covered = tree.covered(id);  // C(n)
+    tree.expand(id);  // C(n)
     work.add(Work::expansion, static_cast<std::int64_t>(neighbors.size()));
     for (const NodeId next : neighbors) {
       const double time_s = *graph.edge_time(id, next) + options.observe_s;
       if (!tree.reached(next)) {
-        tree.attach(next, id, time_s, covered);
-      } else if (!options.reparent || !tree.reattach_if_better(next, id, time_s, covered)) {
+        tree.attach(next, time_s);
+      } else if (!options.reparent || !tree.reattach_if_better(next, time_s)) {
         continue;
       }
       queue.push({tree.utility(next), next});

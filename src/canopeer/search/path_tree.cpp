@@ -7,20 +7,27 @@
 namespace canopeer {
 
 PathTree::PathTree(const ViewGraph& graph, NodeId root)
-    : graph_(&graph), root_(root), entries_(graph.id_count()) {
+    : graph_(&graph), root_(root), expanded_(root), entries_(graph.id_count()) {
   entry(root).reached = true;
 }
 
-VoxelSet PathTree::covered(NodeId id) const {
-  VoxelSet cells;
-  for (NodeId n = id; n != root_; n = entry(n).from) cells.merge(graph_->node(n).cast->unknown);
-  return cells;
+void PathTree::expand(NodeId id) {
+  CANOPEER_CHECK(reached(id), "only a reached node has a path");
+  covered_.clear();
+  for (NodeId n = id; n != root_; n = entry(n).from) covered_.add(cells(n));
+  expanded_ = id;
 }
 
-PathTree::Sums PathTree::extend(const Sums& base, NodeId id, double time_s,
-                                const VoxelSet& covered) const {
-  Sums sums = base;
-  sums.new_unknown = covered.count_new(graph_->node(id).cast->unknown);
+const CellUnion::Prepared& PathTree::cells(NodeId id) {
+  Entry& e = entry(id);
+  if (!e.prepared) e.cells = covered_.prepare(graph_->node(id).cast->unknown);
+  e.prepared = true;
+  return e.cells;
+}
+
+PathTree::Sums PathTree::extend(NodeId id, double time_s) {
+  Sums sums = entry(expanded_).sums;
+  sums.new_unknown = covered_.count_new(cells(id));
   sums.unknown += sums.new_unknown;
   sums.time_s += time_s;
   sums.roi_views += graph_->node(id).view.kind == TargetKind::roi ? 1 : 0;
@@ -31,20 +38,20 @@ PathTree::Sums PathTree::extend(const Sums& base, NodeId id, double time_s,
   return sums;
 }
 
-void PathTree::attach(NodeId id, NodeId from, double time_s, const VoxelSet& covered_from) {
-  CANOPEER_CHECK(!reached(id) && reached(from), "attach a new node behind a reached one");
+void PathTree::attach(NodeId id, double time_s) {
+  CANOPEER_CHECK(!reached(id), "attach a new node");
   Entry& e = entry(id);
+  e.sums = extend(id, time_s);
   e.reached = true;
-  e.from = from;
+  e.from = expanded_;
   e.edge_time_s = time_s;
-  e.sums = extend(entry(from).sums, id, time_s, covered_from);
-  entry(from).children.push_back(id);
+  entry(expanded_).children.push_back(id);
 }
 
-bool PathTree::reattach_if_better(NodeId id, NodeId from, double time_s,
-                                  const VoxelSet& covered_from) {
+bool PathTree::reattach_if_better(NodeId id, double time_s) {
+  const NodeId from = expanded_;
   if (id == root_ || entry(id).from == from || on_path(id, from)) return false;
-  const Sums sums = extend(entry(from).sums, id, time_s, covered_from);
+  const Sums sums = extend(id, time_s);
   if (sums.utility <= entry(id).sums.utility) return false;
   std::erase(entry(entry(id).from).children, id);
   entry(from).children.push_back(id);
@@ -52,7 +59,10 @@ bool PathTree::reattach_if_better(NodeId id, NodeId from, double time_s,
   e.from = from;
   e.edge_time_s = time_s;
   e.sums = sums;
-  recompute_below(id);
+  if (!e.children.empty()) {
+    recompute_below(id);
+    expand(from);
+  }
   return true;
 }
 
@@ -65,11 +75,11 @@ bool PathTree::on_path(NodeId id, NodeId end) const {
 
 void PathTree::recompute_below(NodeId id) {
   if (entry(id).children.empty()) return;
-  const VoxelSet cells = covered(id);
+  expand(id);
   for (const NodeId child : entry(id).children) {
-    entry(child).sums = extend(entry(id).sums, child, entry(child).edge_time_s, cells);
-    recompute_below(child);
+    entry(child).sums = extend(child, entry(child).edge_time_s);
   }
+  for (const NodeId child : entry(id).children) recompute_below(child);
 }
 
 ViewPath PathTree::path_to(NodeId id) const {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "canopeer/search/cell_union.h"
 #include "canopeer/search/view_path.h"
 
 namespace canopeer {
@@ -22,15 +23,20 @@ class PathTree {
   [[nodiscard]] double utility(NodeId id) const { return entry(id).sums.utility; }
   /// t: view poses on the path to `id`, the root not counted.
   [[nodiscard]] int views(NodeId id) const { return entry(id).sums.views; }
-  /// ∪ of the visible sets of all views on the path to `id`; the root's own set does not count (C =
-  /// ∅ there).
-  [[nodiscard]] VoxelSet covered(NodeId id) const;
 
-  /// Puts `id` behind `from`, whose path covers `covered_from`. `id` must be new to the tree.
-  void attach(NodeId id, NodeId from, double time_s, const VoxelSet& covered_from);
-  /// Moves `id`, with all that hangs on it, behind `from` when that raises its utility and makes no
-  /// circle. Returns whether it did.
-  bool reattach_if_better(NodeId id, NodeId from, double time_s, const VoxelSet& covered_from);
+  /// Makes `id`, a reached node, the one whose neighbours are evaluated next: its C(n) is the union
+  /// of the visible sets of all views on the path to it; the root's own set does not count (C = ∅
+  /// there).
+  void expand(NodeId id);
+  /// U that `id` would have behind the expanded node, by an edge of `time_s`.
+  [[nodiscard]] double utility_behind(NodeId id, double time_s) {
+    return extend(id, time_s).utility;
+  }
+  /// Puts `id` behind the expanded node. `id` must be new to the tree.
+  void attach(NodeId id, double time_s);
+  /// Moves `id`, with all that hangs on it, behind the expanded node when that raises its utility
+  /// and makes no circle. Returns whether it did.
+  bool reattach_if_better(NodeId id, double time_s);
 
   [[nodiscard]] ViewPath path_to(NodeId id) const;
 
@@ -45,23 +51,28 @@ class PathTree {
   };
   struct Entry {
     bool reached = false;
+    bool prepared = false;
     NodeId from{};
     double edge_time_s = 0.0;
     Sums sums;
+    CellUnion::Prepared cells;  ///< what the view sees
     std::vector<NodeId> children;
   };
   [[nodiscard]] const Entry& entry(NodeId id) const {
     return entries_[static_cast<std::size_t>(id)];
   }
   Entry& entry(NodeId id) { return entries_[static_cast<std::size_t>(id)]; }
-  [[nodiscard]] Sums extend(const Sums& base, NodeId id, double time_s,
-                            const VoxelSet& covered) const;
+  const CellUnion::Prepared& cells(NodeId id);
+  /// Sums of `id` behind the expanded node.
+  [[nodiscard]] Sums extend(NodeId id, double time_s);
   [[nodiscard]] bool on_path(NodeId id, NodeId end) const;
   void recompute_below(NodeId id);
 
   const ViewGraph* graph_;
   NodeId root_;
+  NodeId expanded_;
   std::vector<Entry> entries_;
+  CellUnion covered_;  ///< C of the expanded node
 };
 
 }  // namespace canopeer

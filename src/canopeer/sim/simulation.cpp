@@ -5,6 +5,7 @@
 #include "canopeer/base/rng.h"
 #include "canopeer/render/renderer.h"
 #include "canopeer/robot/straight_timing.h"
+#include "canopeer/sim/simulation_time.h"
 
 namespace canopeer {
 
@@ -15,7 +16,7 @@ struct Simulation::State {
   Renderer renderer;
   MotionJudge judge;
   const VoxelMap* map = nullptr;
-  double now_s = 0.0;
+  SimulationTime time;
   Configuration q;
   TrolleyState trolley;
 };
@@ -23,9 +24,9 @@ struct Simulation::State {
 class Simulation::SimClock : public Clock {
  public:
   explicit SimClock(State& state) : state_(state) {}
-  double now_s() const override { return state_.now_s; }
-  void charge(double compute_s) override { state_.now_s += compute_s; }
-  void sleep(double seconds) override { state_.now_s += seconds; }
+  double now_s() const override { return state_.time.now_s(); }
+  void charge(double compute_s) override { state_.time.charge(compute_s); }
+  void sleep(double seconds) override { state_.time.pass_until(state_.time.now_s() + seconds); }
 
  private:
   State& state_;
@@ -48,14 +49,15 @@ class Simulation::SimArm : public Arm {
       if (i > 0) duration_s += motion_time(waypoints[i - 1], waypoints[i], state_.robot.limits());
     }
     // Judged now, on the map as it is when the motion starts.
+    const auto pause = state_.time.pause();
     const Verdict verdict = state_.judge.judge(waypoints, state_.trolley, state_.map);
     outcome_ = {with_arrival_error(waypoints.back()), verdict.collision, verdict.plant_contact};
-    end_s_ = state_.now_s + duration_s;
+    end_s_ = state_.time.now_s() + duration_s;
     return duration_s;
   }
 
   Expected<MotionOutcome> finish() override {
-    state_.now_s = std::max(state_.now_s, end_s_);
+    state_.time.pass_until(end_s_);
     state_.q = outcome_.q;
     return outcome_;
   }
@@ -98,8 +100,9 @@ class Simulation::SimTrolley : public Trolley {
                  ? 0.0
                  : axis_motion_time(distance, axis.velocity_limit, axis.acceleration_limit);
     };
-    state_.now_s += time(travel, std::abs(goal.travel_m - state_.trolley.travel_m)) +
-                    time(lift, std::abs(goal.lift_m - state_.trolley.lift_m));
+    state_.time.pass_until(state_.time.now_s() +
+                           time(travel, std::abs(goal.travel_m - state_.trolley.travel_m)) +
+                           time(lift, std::abs(goal.lift_m - state_.trolley.lift_m)));
     state_.trolley = goal;
     return {};
   }
@@ -114,7 +117,8 @@ class Simulation::SimCamera : public Camera {
 
   Expected<RgbdFrame> capture() override {
     RgbdFrame frame;
-    frame.time_s = state_.now_s;
+    const auto pause = state_.time.pause();
+    frame.time_s = state_.time.now_s();
     frame.intrinsics = state_.options.camera;
     frame.T_world_camera =
         state_.robot.T_world_base(state_.trolley) * state_.robot.T_base_camera(state_.q);
@@ -130,8 +134,8 @@ class Simulation::SimCamera : public Camera {
 
 Simulation::Simulation(const RobotModel& robot, const Scene& scene, const Configuration& q,
                        const TrolleyState& trolley, const SimulationOptions& options)
-    : state_(new State{robot, options, Renderer(scene), MotionJudge(robot, scene), nullptr, 0.0, q,
-                       trolley}),
+    : state_(new State{robot, options, Renderer(scene), MotionJudge(robot, scene), nullptr,
+                       SimulationTime(options.realtime), q, trolley}),
       clock_(std::make_unique<SimClock>(*state_)),
       arm_(std::make_unique<SimArm>(*state_)),
       trolley_(std::make_unique<SimTrolley>(*state_)),

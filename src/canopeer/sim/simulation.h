@@ -16,10 +16,14 @@ struct SimulationOptions {
   /// stopped.
   double arrival_error_rad = 0.0;
   std::uint64_t seed = 1;
+  /// The clock is the wall's: motions take as long as they take. The time the simulator itself
+  /// needs to render a frame and to judge a motion, which no real robot would, is left out.
+  bool realtime = false;
 };
 
-/// A robot in a scene, in one process and in simulated time: each port moves one clock. A run is a
-/// sequence of events, as fast as the machine computes them, and the same on any machine.
+/// A robot in a scene, in one process. In simulated time each port moves one clock: a run is a
+/// sequence of events, as fast as the machine computes them, and the same on any machine. On the
+/// wall clock nothing of that holds.
 class Simulation {
  public:
   /// The arm starts in `q`. `robot` and `scene` outlive the simulation.

@@ -106,12 +106,32 @@ bool GraphBuilder::full(TargetKind kind) const {
 }
 
 int GraphBuilder::grow(const VoxelMap& map, const CollisionChecker& checker, WorkMeter& work) {
+  Batch batch = next_batch(map, checker);
+  batch.run();
+  return join(std::move(batch), checker, work);
+}
+
+GraphBuilder::Batch GraphBuilder::next_batch(const VoxelMap& map, const CollisionChecker& checker) {
   for (const auto kind : {TargetKind::roi, TargetKind::occupied, TargetKind::border}) {
     targets_.close(kind, full(kind));
   }
+  Batch batch;
+  batch.sampler_ = &sampler_;
+  batch.map_ = &map;
+  batch.checker_ = &checker;
+  batch.targets_ = targets_;
+  batch.seed_ = seed_;
+  batch.first_candidate_ = candidates_;
+  batch.candidates_ = static_cast<std::size_t>(options_.batch);
+  candidates_ += batch.candidates_;
+  return batch;
+}
+
+int GraphBuilder::join(Batch batch, const CollisionChecker& checker, WorkMeter& work) {
+  work.merge(batch.work_);
   std::vector<NodeId> added;
   std::vector<Joint> joints;
-  for (auto& view : sample_batch(map, checker, work)) {
+  for (auto& view : batch.views_) {
     if (graph_->has_similar(view, options_.similarity)) continue;
     added.push_back(graph_->add(std::move(view)));
     propose_joints(added.back(), joints, work);
@@ -123,7 +143,7 @@ int GraphBuilder::grow(const VoxelMap& map, const CollisionChecker& checker, Wor
   // A view that no motion reaches is of no use.
   int stayed = 0;
   for (const NodeId id : added) {
-    if (graph_->node(id).edges.empty()) {
+    if (graph_->node(id).edges.empty() && !options_.keep_unconnected) {
       graph_->remove(id);
     } else {
       ++stayed;
@@ -138,22 +158,17 @@ bool GraphBuilder::resting() const {
          idle_batches_ >= options_.max_idle_batches;
 }
 
-std::vector<ViewPose> GraphBuilder::sample_batch(const VoxelMap& map,
-                                                 const CollisionChecker& checker, WorkMeter& work) {
-  const auto count = static_cast<std::size_t>(options_.batch);
-  std::vector<std::optional<ViewPose>> candidates(count);
-  std::vector<WorkMeter> meters(count);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-    Rng rng(seed_, "view candidate", candidates_ + i);
-    candidates[i] = sampler_.sample(map, checker, targets_, rng, meters[i]);
+void GraphBuilder::Batch::run() {
+  std::vector<std::optional<ViewPose>> found(candidates_);
+  std::vector<WorkMeter> meters(candidates_);
+  tbb::parallel_for(std::size_t{0}, candidates_, [&](std::size_t i) {
+    Rng rng(seed_, "view candidate", first_candidate_ + i);
+    found[i] = sampler_->sample(*map_, *checker_, targets_, rng, meters[i]);
   });
-  candidates_ += count;
-  std::vector<ViewPose> views;
-  for (std::size_t i = 0; i < count; ++i) {
-    work.merge(meters[i]);
-    if (candidates[i]) views.push_back(std::move(*candidates[i]));
+  for (std::size_t i = 0; i < candidates_; ++i) {
+    work_.merge(meters[i]);
+    if (found[i]) views_.push_back(std::move(*found[i]));
   }
-  return views;
 }
 
 void GraphBuilder::propose_joints(NodeId id, std::vector<Joint>& joints, WorkMeter& work) const {

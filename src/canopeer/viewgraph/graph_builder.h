@@ -20,6 +20,7 @@ struct GraphBuilderOptions {
   int batch = 64;        ///< candidates sampled together (in parallel) before they are joined
   int max_idle_batches =
       40;  ///< batches in a row without a new node, then rest until targets change
+  bool keep_unconnected = false;  ///< views that join nothing stay, as in the published code
 };
 
 /// Grows a view graph batch by batch ([Zaenker23], section III-C): samples view poses, skips those
@@ -46,7 +47,29 @@ class GraphBuilder {
   /// too.
   void join_start(NodeId id, const CollisionChecker& checker, WorkMeter& work);
 
-  /// One batch of candidates. Returns the number of nodes that stayed.
+  /// A number of candidates to be sampled together. run() needs nothing of the graph and may go on
+  /// in another thread, beside anything but a change of the map or the end of the builder.
+  class Batch {
+   public:
+    void run();
+
+   private:
+    friend class GraphBuilder;
+    const ViewSampler* sampler_ = nullptr;
+    const VoxelMap* map_ = nullptr;
+    const CollisionChecker* checker_ = nullptr;
+    TargetSampler targets_;
+    std::uint64_t seed_ = 0;
+    std::uint64_t first_candidate_ = 0;
+    std::size_t candidates_ = 0;
+    std::vector<ViewPose> views_;
+    WorkMeter work_;
+  };
+  [[nodiscard]] Batch next_batch(const VoxelMap& map, const CollisionChecker& checker);
+  /// Puts the views of a batch that has run into the graph. Returns the number that stayed.
+  int join(Batch batch, const CollisionChecker& checker, WorkMeter& work);
+
+  /// One batch of candidates: next_batch, run, join.
   int grow(const VoxelMap& map, const CollisionChecker& checker, WorkMeter& work);
 
   /// Nothing to do until targets change.
@@ -59,8 +82,6 @@ class GraphBuilder {
     bool free = false;
     int states_checked = 0;
   };
-  std::vector<ViewPose> sample_batch(const VoxelMap& map, const CollisionChecker& checker,
-                                     WorkMeter& work);
   void propose_joints(NodeId id, std::vector<Joint>& joints, WorkMeter& work) const;
   void check_joints(std::vector<Joint>& joints, const CollisionChecker& checker,
                     WorkMeter& work) const;

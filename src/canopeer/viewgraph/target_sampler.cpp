@@ -10,7 +10,9 @@ namespace canopeer {
 
 TargetSampler::TargetSampler(FrontierTargets targets, double resolution_m,
                              const TargetShares& shares)
-    : targets_(std::move(targets)), resolution_m_(resolution_m), shares_(shares) {}
+    : targets_(std::make_shared<const FrontierTargets>(std::move(targets))),
+      resolution_m_(resolution_m),
+      shares_(shares) {}
 
 void TargetSampler::close(TargetKind kind, bool closed) {
   closed_[static_cast<std::size_t>(kind)] = closed;
@@ -23,8 +25,8 @@ bool TargetSampler::empty() const {
 
 const std::vector<VoxelIndex>& TargetSampler::of_kind(TargetKind kind) const {
   CANOPEER_CHECK(kind != TargetKind::none, "a kind of frontier");
-  if (kind == TargetKind::roi) return targets_.roi;
-  return kind == TargetKind::occupied ? targets_.occupied : targets_.border;
+  if (kind == TargetKind::roi) return targets_->roi;
+  return kind == TargetKind::occupied ? targets_->occupied : targets_->border;
 }
 
 std::optional<TargetKind> TargetSampler::draw_kind(Rng& rng) const {

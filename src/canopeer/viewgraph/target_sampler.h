@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -24,7 +25,8 @@ struct Target {
 
 /// Draws target positions from the frontiers of the map ([Zaenker23], section III-B): first a kind
 /// by its share, then a voxel centre uniformly within the kind. A kind without voxels hands over to
-/// the next one, in the order ROI, occupied, border, ROI. Immutable, so thread-safe.
+/// the next one, in the order ROI, occupied, border, ROI. Const calls are thread-safe; a copy
+/// shares the targets and is a cheap snapshot.
 class TargetSampler {
  public:
   TargetSampler() = default;
@@ -38,7 +40,7 @@ class TargetSampler {
   [[nodiscard]] Target draw(TargetKind kind, Rng& rng) const;
   /// No open kind has targets.
   [[nodiscard]] bool empty() const;
-  [[nodiscard]] const FrontierTargets& targets() const { return targets_; }
+  [[nodiscard]] const FrontierTargets& targets() const { return *targets_; }
 
  private:
   [[nodiscard]] const std::vector<VoxelIndex>& of_kind(TargetKind kind) const;
@@ -46,7 +48,7 @@ class TargetSampler {
     return !closed_[static_cast<std::size_t>(kind)] && !of_kind(kind).empty();
   }
 
-  FrontierTargets targets_;
+  std::shared_ptr<const FrontierTargets> targets_ = std::make_shared<FrontierTargets>();
   double resolution_m_ = 0.01;
   TargetShares shares_;
   std::array<bool, 4> closed_{};  // by kind

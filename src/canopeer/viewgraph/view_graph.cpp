@@ -8,6 +8,9 @@ namespace canopeer {
 
 NodeId ViewGraph::add(ViewPose view) {
   nodes_.emplace_back();
+  q_.insert(q_.end(), view.q.begin(), view.q.end());
+  positions_.emplace_back(view.T_world_camera.translation());
+  axes_.emplace_back(view.T_world_camera.linear().col(2));
   nodes_.back().view = std::move(view);
   ++live_nodes_;
   return static_cast<NodeId>(nodes_.size() - 1);
@@ -37,6 +40,9 @@ void ViewGraph::remove(NodeId id) {
 
 void ViewGraph::clear() {
   nodes_.clear();
+  q_.clear();
+  positions_.clear();
+  axes_.clear();
   live_nodes_ = 0;
   edges_ = 0;
 }
@@ -73,11 +79,16 @@ std::vector<ViewGraph::Neighbor> ViewGraph::nearest_of(const Configuration& q, s
                                                        double max_distance_rad, NodeId except,
                                                        bool visited_too) const {
   std::vector<Neighbor> found;
+  const auto dof = static_cast<std::size_t>(q.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    double distance = 0.0;
+    for (std::size_t j = 0; j < dof; ++j) {
+      distance += std::abs(q_[i * dof + j] - q[static_cast<Eigen::Index>(j)]);
+    }
+    if (distance > max_distance_rad) continue;
     const auto id = static_cast<NodeId>(i);
     if (nodes_[i].removed || id == except || (nodes_[i].visited && !visited_too)) continue;
-    const double distance = joint_distance(q, nodes_[i].view.q);
-    if (distance <= max_distance_rad) found.push_back({id, distance});
+    found.push_back({id, distance});
   }
   const auto nearer = [](const Neighbor& a, const Neighbor& b) {
     return std::pair(a.distance_rad, a.id) < std::pair(b.distance_rad, b.id);
@@ -89,14 +100,26 @@ std::vector<ViewGraph::Neighbor> ViewGraph::nearest_of(const Configuration& q, s
 }
 
 bool ViewGraph::has_similar(const ViewPose& view, const SimilarityLimits& limits) const {
+  if (limits.published_below > 0.0) return has_similar_as_published(view, limits.published_below);
   const double cos_limit = std::cos(limits.angle_rad);
   const double squared_limit = limits.position_m * limits.position_m;
   const Vec3 position = view.T_world_camera.translation();
   const Vec3 axis = view.T_world_camera.linear().col(2);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if ((positions_[i] - position).squaredNorm() < squared_limit &&
+        axes_[i].dot(axis) > cos_limit && !nodes_[i].removed) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool ViewGraph::has_similar_as_published(const ViewPose& view, double below) const {
+  const Vec3 axis = view.T_world_camera.linear().col(2);
   return std::any_of(nodes_.begin(), nodes_.end(), [&](const ViewNode& n) {
-    return !n.removed &&
-           (n.view.T_world_camera.translation() - position).squaredNorm() < squared_limit &&
-           n.view.T_world_camera.linear().col(2).dot(axis) > cos_limit;
+    if (n.removed || n.view.kind == TargetKind::none) return false;
+    const double distance = (n.view.target_world - view.target_world).norm() / 0.1;
+    return distance * (1.0 - n.view.T_world_camera.linear().col(2).dot(axis)) < below;
   });
 }
 

@@ -30,6 +30,9 @@ struct ViewNode {
 struct SimilarityLimits {
   double position_m = 0.04;
   double angle_rad = 0.15;  ///< between the optical axes
+  /// The published measure instead, no metric: similar when (distance of the targets / 0.1 m) ·
+  /// (1 − cos of the angle between the axes) is below this; 0: not used.
+  double published_below = 0.0;
 };
 
 /// The graph of reachable view poses and the collision-free timed motions between them
@@ -80,8 +83,13 @@ class ViewGraph {
                                                  double max_distance_rad, NodeId except,
                                                  bool visited_too) const;
   void drop_half_edge(NodeId from, NodeId to);
+  [[nodiscard]] bool has_similar_as_published(const ViewPose& view, double below) const;
 
   std::vector<ViewNode> nodes_;
+  // Searched from end to end for every candidate, so they lie close together; by node.
+  std::vector<double> q_;
+  std::vector<Vec3> positions_;
+  std::vector<Vec3> axes_;
   int live_nodes_ = 0;
   int edges_ = 0;
 };

@@ -65,7 +65,7 @@ std::optional<Configuration> ViewSampler::reach(const Sight& sight, const Collis
   work.add(Work::view_ik);
   std::vector<Configuration> solutions;
   ik_->solve_view(T_base_world_ * sight.camera_world, T_base_world_ * sight.target.p_world,
-                  frame_->home, solutions);
+                  frame_->home, solutions, {options_.rolls});
   int checks = 0;
   for (auto& q : solutions) {
     if (checks++ == options_.max_state_checks) break;

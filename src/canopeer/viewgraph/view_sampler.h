@@ -21,6 +21,7 @@ struct ViewSamplerOptions {
   int max_draws =
       32;  ///< (target, position) pairs drawn in a try until one is within the distances
   int max_state_checks = 12;  ///< arm configurations of one view tried for collisions
+  int rolls = 8;              ///< turns about the optical axis tried; 1: the image is upright
 };
 
 /// Samples view poses: a camera position in the workspace that sees a target at the right distance,

@@ -4,10 +4,33 @@
 #include <cmath>
 #include <utility>
 
+#include "canopeer/base/check.h"
 #include "canopeer/robot/straight_timing.h"
 #include "canopeer/search/random_walk.h"
 
 namespace canopeer {
+namespace {
+
+/// Drops the voxels without a 6-neighbour that is both occupied and ROI.
+void keep_roi_neighbors(const VoxelMap& map, std::vector<VoxelIndex>& voxels) {
+  std::erase_if(voxels, [&](const VoxelIndex& voxel) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const int step : {-1, 1}) {
+        const VoxelIndex neighbor = voxel + step * VoxelIndex::Unit(axis);
+        if (map.is_roi(neighbor) && map.occupancy(neighbor) == Occupancy::occupied) return false;
+      }
+    }
+    return true;
+  });
+}
+
+struct BatchTask : BackgroundTask {
+  explicit BatchTask(GraphBuilder::Batch b) : batch(std::move(b)) {}
+  void run() override { batch.run(); }
+  GraphBuilder::Batch batch;
+};
+
+}  // namespace
 
 VmpPlanner::VmpPlanner(const VmpOptions& options) : options_(options) {}
 
@@ -25,9 +48,14 @@ void VmpPlanner::begin_segment(const PlanningScene& scene) {
   path_age_s_ = 0.0;
   credit_s_ = 0.0;
   waited_s_ = 0.0;
+  stood_s_ = 0.0;
+  search_just_ran_ = false;
+  counts_ = {};
 }
 
 void VmpPlanner::map_changed(MapChange change) {
+  stood_s_ = 0.0;
+  if (options_.occupied_means_roi) keep_roi_neighbors(*scene_.map, change.targets.occupied);
   graph_.invalidate_casts(change.blocks);
   std::vector<NodeId> keep = path();
   if (goal_) keep.push_back(*goal_);
@@ -40,33 +68,63 @@ Decision VmpPlanner::decide(const Configuration& q, WorkMeter& work) {
   // Each round takes an edge out of the graph, so this ends.
   while (true) {
     if (path_.empty()) {
-      const bool enough = searched_ || graph_.node_count() >= options_.min_nodes ||
-                          builder_->resting() || waited_s_ > options_.max_wait_s / 2;
-      if (!enough) return hold();
+      if (!ready_to_search()) return hold();
       plan(work);
       if (path_.empty()) return hold();
     }
     const PathStep step = path_.front();
     if (edge_clear(at_, step.node, work)) return go(step);
     graph_.remove_edge(at_, step.node);
+    ++counts_.blocked_edges;
     path_.clear();
   }
 }
 
+bool VmpPlanner::ready_to_search() const {
+  if (stood_s_ < options_.stand_still_s) return false;
+  return searched_ || graph_.node_count() >= options_.min_nodes || builder_->resting() ||
+         waited_s_ > options_.max_wait_s / 2;
+}
+
+void VmpPlanner::time_passes(double seconds) {
+  stood_s_ += seconds;
+  path_age_s_ += seconds;
+  waited_s_ += seconds;
+}
+
+std::unique_ptr<BackgroundTask> VmpPlanner::next_task() {
+  if (!builder_ || builder_->resting()) return nullptr;
+  return std::make_unique<BatchTask>(builder_->next_batch(*scene_.map, *scene_.checker));
+}
+
+void VmpPlanner::finish_task(BackgroundTask& task, WorkMeter& work) {
+  auto* batch = dynamic_cast<BatchTask*>(&task);
+  CANOPEER_CHECK(batch != nullptr, "a task this planner made");
+  builder_->join(std::move(batch->batch), *scene_.checker, work);
+}
+
 void VmpPlanner::grow(double budget_s, WorkMeter& work) {
+  time_passes(budget_s);
+  if (std::exchange(search_just_ran_, false) && options_.rest_while_searching) return;
   credit_s_ += budget_s;
-  path_age_s_ += budget_s;
-  waited_s_ += budget_s;
-  while (credit_s_ > 0.0 && !builder_->resting()) {
+  while (credit_s_ > 0.0) {
+    const auto task = next_task();
+    if (!task) break;
+    task->run();
     WorkMeter batch;
-    builder_->grow(*scene_.map, *scene_.checker, batch);
+    finish_task(*task, batch);
     credit_s_ -= batch.seconds(*scene_.costs);
     work.merge(batch);
   }
   credit_s_ = std::min(credit_s_, 0.0);  // time not used is gone
 }
 
-PlannerStatus VmpPlanner::status() const { return {graph_.node_count(), graph_.edge_count()}; }
+PlannerStatus VmpPlanner::status() const {
+  PlannerStatus status = counts_;
+  status.graph_nodes = graph_.node_count();
+  status.graph_edges = graph_.edge_count();
+  return status;
+}
 
 std::vector<NodeId> VmpPlanner::path() const {
   std::vector<NodeId> ids;
@@ -92,6 +150,7 @@ void VmpPlanner::arrive(const Configuration& q, WorkMeter& work) {
 /// the path is given up.
 void VmpPlanner::insert_off_pose(const Configuration& q, WorkMeter& work) {
   const Pose T_world_camera = scene_.segment.T_world_base * scene_.robot->T_base_camera(q);
+  ++counts_.off_pose_nodes;
   at_ = builder_->add_start(q, *scene_.checker, T_world_camera, work);
   started_ = true;
   if (path_.empty()) return;
@@ -108,6 +167,8 @@ void VmpPlanner::plan(WorkMeter& work) {
   ViewPath path;
   if (options_.search == VmpOptions::Search::best_first) {
     path = search_path(graph_, at_, *scene_.map, options_.path_search, work);
+  } else if (options_.search == VmpOptions::Search::released) {
+    path = search_released(graph_, at_, *scene_.map, options_.released_search, *scene_.costs, work);
   } else {
     Rng rng(scene_.seed, "random walk",
             (static_cast<std::uint64_t>(scene_.segment.index) << 32) + walks_++);
@@ -117,6 +178,8 @@ void VmpPlanner::plan(WorkMeter& work) {
   executed_rad_ = 0.0;
   path_age_s_ = 0.0;
   searched_ = true;
+  ++counts_.searches;
+  search_just_ran_ = true;
 }
 
 bool VmpPlanner::look_ahead_used_up() const {
@@ -159,7 +222,7 @@ Decision VmpPlanner::go(const PathStep& step) {
   decision.motion.waypoints = {from.view.q, to.view.q};
   decision.motion.T_world_camera = to.view.T_world_camera;
   decision.motion.kind = to.view.kind;
-  if (options_.search == VmpOptions::Search::best_first)
+  if (options_.search != VmpOptions::Search::random_walk)
     decision.motion.predicted_gain = step.new_unknown;
   executed_rad_ += joint_distance(from.view.q, to.view.q);
   goal_ = step.node;

@@ -5,6 +5,7 @@
 
 #include "canopeer/planner/planner.h"
 #include "canopeer/search/path_search.h"
+#include "canopeer/search/released_search.h"
 #include "canopeer/search/view_path.h"
 #include "canopeer/viewgraph/graph_builder.h"
 
@@ -12,11 +13,13 @@ namespace canopeer {
 
 struct VmpOptions {
   enum class Search {
-    best_first,  ///< Algorithm 1 of the paper
-    random_walk  ///< a random path over the same graph, to measure what the search is worth
+    best_first,   ///< Algorithm 1 of the paper
+    random_walk,  ///< a random path over the same graph, to measure what the search is worth
+    released      ///< the published code's: by accumulated cost
   };
   GraphBuilderOptions builder;
   PathSearchOptions path_search;
+  ReleasedSearchOptions released_search;
   Search search = Search::best_first;
   int random_walk_views = 3;
   double look_ahead_rad =
@@ -27,6 +30,10 @@ struct VmpOptions {
   double arrival_tolerance_rad =
       0.005;                     ///< Σ|Δq| within which the arm is at the node it was sent to
   double judge_step_rad = 0.01;  ///< Σ|Δq| between states judged exactly
+  // How the published code goes about it; off in the paper's planner.
+  double stand_still_s = 0.0;         ///< graph building with the arm at rest before every search
+  bool rest_while_searching = false;  ///< the builder pauses while the search runs
+  bool occupied_means_roi = false;  ///< of the occupied frontiers only those of occupied ROI voxels
 };
 
 /// View motion planning on a graph: T. Zaenker, J. Rückin, R. Menon, M. Popović, M. Bennewitz,
@@ -41,6 +48,9 @@ class VmpPlanner : public Planner {
   void begin_segment(const PlanningScene& scene) override;
   void map_changed(MapChange change) override;
   Decision decide(const Configuration& q, WorkMeter& work) override;
+  void time_passes(double seconds) override;
+  std::unique_ptr<BackgroundTask> next_task() override;
+  void finish_task(BackgroundTask& task, WorkMeter& work) override;
   void grow(double budget_s, WorkMeter& work) override;
   [[nodiscard]] PlannerStatus status() const override;
 
@@ -51,6 +61,7 @@ class VmpPlanner : public Planner {
  private:
   void arrive(const Configuration& q, WorkMeter& work);
   void insert_off_pose(const Configuration& q, WorkMeter& work);
+  [[nodiscard]] bool ready_to_search() const;
   void plan(WorkMeter& work);
   [[nodiscard]] bool look_ahead_used_up() const;
   [[nodiscard]] bool edge_clear(NodeId a, NodeId b, WorkMeter& work) const;
@@ -72,7 +83,10 @@ class VmpPlanner : public Planner {
   double path_age_s_ = 0.0;
   double credit_s_ = 0.0;  ///< background seconds not used yet (negative: owed)
   double waited_s_ = 0.0;
+  double stood_s_ = 0.0;          ///< since the last frame
+  bool search_just_ran_ = false;  ///< the next background time is that of a search
   std::uint64_t walks_ = 0;
+  PlannerStatus counts_;  ///< of the segment; the graph's sizes are not in it
 };
 
 }  // namespace canopeer

@@ -1,0 +1,401 @@
+// The planner's kernels on one thread: search expansions with and without view casts inside beside
+// the published way (sets of octree keys, copied along the path), graph building, and the time from
+// a frame to a motion command. In front of Scenario 1, stop 1, side 1, 1 cm voxels.
+
+#include <benchmark/benchmark.h>
+#include <octomap/octomap.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <memory>
+#include <vector>
+
+#include "bench_rows.h"
+#include "canopeer/detect/color_detector.h"
+#include "canopeer/map/view_cast.h"
+#include "canopeer/planner/vmp/vmp_planner.h"
+#include "canopeer/search/path_tree.h"
+#include "canopeer/search/random_walk.h"
+#include "canopeer/viewgraph/graph_builder.h"
+#include "support/planning_fixture.h"
+
+namespace canopeer {
+namespace {
+
+constexpr int kFrames = 4;  // before anything is measured
+constexpr int kGraphNodes = 2000;
+constexpr int kPathLength = 10;
+constexpr int kPaths = 64;
+const ViewFan kFan{.columns = 9, .rows = 7};  // the published code's 63 rays
+
+double cpu_now_s() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+/// A segment with a few frames fused.
+class Segment {
+ public:
+  Segment() : targets_(world.home.change.targets) {
+    Rng rng(1, "bench views");
+    const ViewSampler sampler(world.frame, world.robot, world.ik, {});
+    WorkMeter work;
+    for (int taken = 0; taken < kFrames;) {
+      const TargetSampler drawn(targets_, world.mission.map.resolution_m, {});
+      const auto view = sampler.sample(world.perception.map(), world.checker, drawn, rng, work);
+      if (!view) continue;
+      look_from(view->q);
+      ++taken;
+    }
+  }
+
+  void look_from(const Configuration& q) {
+    const Ports ports = world.simulation.ports();
+    static_cast<void>(ports.arm->start({ports.arm->configuration(), q}).value());
+    static_cast<void>(ports.arm->finish().value());
+    WorkMeter work;
+    StageTimer timer;
+    targets_ = world.perception
+                   .observe(ports.camera->capture().value(), world.frame.sampling_region_world,
+                            work, timer)
+                   .change.targets;
+  }
+  [[nodiscard]] const FrontierTargets& targets() const { return targets_; }
+  [[nodiscard]] const VoxelMap& map() const { return world.perception.map(); }
+
+  test::PlanningFixture world;
+
+ private:
+  FrontierTargets targets_;
+};
+
+Segment& segment() {
+  static Segment one;
+  return one;
+}
+
+/// A graph of as many nodes as it comes to, and its builder.
+struct Built {
+  ViewGraph graph;
+  std::unique_ptr<GraphBuilder> builder;
+  NodeId start{};
+
+  explicit Built(int max_nodes) {
+    GraphBuilderOptions options;
+    options.max_nodes = max_nodes;
+    auto& world = segment().world;
+    builder = std::make_unique<GraphBuilder>(graph, world.frame, world.robot, world.ik, options, 7);
+    builder->set_targets(segment().map(), segment().targets(), {});
+    WorkMeter work;
+    start = builder->add_start(
+        world.frame.home, world.checker,
+        world.frame.T_world_base * world.robot.T_base_camera(world.frame.home), work);
+  }
+  void grow() {
+    WorkMeter work;
+    builder->grow(segment().map(), segment().world.checker, work);
+  }
+};
+
+/// Paths of ten views over a full graph, all view casts in place.
+struct Paths {
+  Built built{kGraphNodes};
+  std::vector<std::vector<NodeId>> paths;
+
+  Paths() {
+    while (!built.builder->resting()) built.grow();
+    for (std::size_t i = 0; i < built.graph.id_count(); ++i) {
+      ViewNode& node = built.graph.node(static_cast<NodeId>(i));
+      if (!node.removed) node.cast = cast_view(segment().map(), node.view.T_world_camera, kFan);
+    }
+    Rng rng(3, "bench paths");
+    while (paths.size() < kPaths) {
+      const ViewPath walk = random_walk(built.graph, built.start, kPathLength, rng);
+      if (walk.steps.size() != kPathLength) continue;
+      std::vector<NodeId> nodes;
+      for (const auto& step : walk.steps) nodes.push_back(step.node);
+      if (neighbors(nodes).empty()) continue;
+      paths.push_back(nodes);
+    }
+  }
+
+  /// Of the last view, those not on the path.
+  [[nodiscard]] std::vector<ViewEdge> neighbors(const std::vector<NodeId>& path) const {
+    std::vector<ViewEdge> found;
+    for (const auto& edge : built.graph.node(path.back()).edges) {
+      const bool on_path = std::find(path.begin(), path.end(), edge.to) != path.end();
+      if (!on_path && !built.graph.node(edge.to).visited) found.push_back(edge);
+    }
+    return found;
+  }
+
+  /// A search tree that is this path.
+  [[nodiscard]] PathTree tree(const std::vector<NodeId>& path) const {
+    PathTree tree(built.graph, built.start);
+    NodeId at = built.start;
+    for (const NodeId id : path) {
+      tree.expand(at);
+      tree.attach(id, built.graph.edge_time(at, id).value());
+      at = id;
+    }
+    return tree;
+  }
+};
+
+Paths& paths() {
+  static Paths all;
+  return all;
+}
+
+/// Expands the ends of all paths: C(n), then U of each neighbour.
+void expand_ends(benchmark::State& state, bool cold) {
+  std::vector<PathTree> trees;
+  std::vector<std::vector<ViewEdge>> neighbors;
+  std::int64_t evaluated = 0;
+  double sum = 0.0;
+  for (const auto& path : paths().paths) {
+    trees.push_back(paths().tree(path));
+    neighbors.push_back(paths().neighbors(path));
+  }
+  if (!cold) {  // the first time prepares the sets
+    for (std::size_t i = 0; i < trees.size(); ++i) {
+      trees[i].expand(paths().paths[i].back());
+      for (const auto& edge : neighbors[i]) sum += trees[i].utility_behind(edge.to, edge.time_s);
+    }
+  }
+  std::size_t i = 0;
+  for (auto _ : state) {
+    if (cold && i == 0) {
+      state.PauseTiming();
+      for (std::size_t k = 0; k < trees.size(); ++k) trees[k] = paths().tree(paths().paths[k]);
+      state.ResumeTiming();
+    }
+    trees[i].expand(paths().paths[i].back());
+    for (const auto& edge : neighbors[i]) {
+      if (cold) {
+        ViewNode& node = paths().built.graph.node(edge.to);
+        node.cast = cast_view(segment().map(), node.view.T_world_camera, kFan);
+      }
+      sum += trees[i].utility_behind(edge.to, edge.time_s);
+    }
+    evaluated += static_cast<std::int64_t>(neighbors[i].size());
+    i = (i + 1) % trees.size();
+  }
+  benchmark::DoNotOptimize(sum);
+  state.SetItemsProcessed(evaluated);
+}
+
+void expansions(benchmark::State& state) { expand_ends(state, false); }
+void expansions_cold(benchmark::State& state) { expand_ends(state, true); }
+BENCHMARK(expansions);
+BENCHMARK(expansions_cold);
+
+// --- the published way ---
+
+using octomap::KeySet;
+
+octomap::point3d point(const Vec3& p) {
+  return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
+}
+
+/// The same map as an octree.
+const octomap::OcTree& octree() {
+  static const octomap::OcTree tree = [] {
+    const VoxelMap& map = segment().map();
+    octomap::OcTree copy(map.resolution_m());
+    for (const BlockKey key : map.block_keys()) {
+      for_each_voxel(key, map.block(key)->observed, [&](const VoxelIndex& v) {
+        copy.setNodeValue(point(voxel_centre(v, map.resolution_m())),
+                          static_cast<float>(map.occupancy_log_odds(v)), true);
+      });
+    }
+    copy.updateInnerOccupancy();
+    return copy;
+  }();
+  return tree;
+}
+
+KeySet visible_unknown(const Pose& T_world_camera) {
+  const octomap::OcTree& tree = octree();
+  KeySet unknown;
+  octomap::KeyRay ray;
+  for (int row = 0; row < kFan.rows; ++row) {
+    for (int column = 0; column < kFan.columns; ++column) {
+      const double x = std::tan(kFan.fov_x_rad / 2) * (2.0 * column / (kFan.columns - 1) - 1.0);
+      const double y = std::tan(kFan.fov_y_rad / 2) * (2.0 * row / (kFan.rows - 1) - 1.0);
+      const Vec3 end = T_world_camera * (kFan.depth_m * Vec3(x, y, 1.0));
+      tree.computeRayKeys(point(T_world_camera.translation()), point(end), ray);
+      for (const auto& key : ray) {
+        const auto* node = tree.search(key);
+        if (node == nullptr) {
+          unknown.insert(key);
+        } else if (tree.isNodeOccupied(node)) {
+          break;
+        }
+      }
+    }
+  }
+  return unknown;
+}
+
+/// For each neighbour: its view cast, the path's set copied, the union, its size.
+void expansions_octomap(benchmark::State& state) {
+  std::vector<KeySet> covered;
+  for (int k = 0; k < 4; ++k) {
+    KeySet all;
+    for (const NodeId id : paths().paths[static_cast<std::size_t>(k)]) {
+      const KeySet cells = visible_unknown(paths().built.graph.node(id).view.T_world_camera);
+      all.insert(cells.begin(), cells.end());
+    }
+    covered.push_back(std::move(all));
+  }
+  std::int64_t evaluated = 0;
+  std::size_t sum = 0;
+  std::size_t i = 0;
+  for (auto _ : state) {
+    for (const auto& edge : paths().neighbors(paths().paths[i])) {
+      KeySet along = covered[i];
+      const KeySet cells = visible_unknown(paths().built.graph.node(edge.to).view.T_world_camera);
+      along.insert(cells.begin(), cells.end());
+      sum += along.size();
+      ++evaluated;
+    }
+    i = (i + 1) % covered.size();
+  }
+  benchmark::DoNotOptimize(sum);
+  state.SetItemsProcessed(evaluated);
+}
+BENCHMARK(expansions_octomap);
+
+// --- the graph ---
+
+/// From nothing, for one second of one core.
+void graph_1s(benchmark::State& state) {
+  double nodes = 0.0;
+  double degree = 0.0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    Built built(1000000);
+    state.ResumeTiming();
+    const double begin_s = cpu_now_s();
+    while (cpu_now_s() - begin_s < 1.0 && !built.builder->resting()) built.grow();
+    nodes = built.graph.node_count();
+    degree = 2.0 * built.graph.edge_count() / nodes;
+  }
+  state.counters["nodes"] = nodes;
+  state.counters["degree"] = degree;
+}
+BENCHMARK(graph_1s)->Iterations(1)->Unit(benchmark::kMillisecond);
+
+// --- a whole step ---
+
+/// From a frame to the first motion command: detecting, fusing, distances, targets, the graph's
+/// clean-up and the search, which casts anew every view that the frame made out of date. The fruit
+/// map is brought up to date aside.
+void replan(benchmark::State& state) {
+  constexpr int kSteps = 24;
+  std::vector<double> took_s;
+  std::vector<double> planner_s;  // of it, without detecting and fusing
+  double nodes = 0.0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    test::PlanningFixture world;
+    const ColorDetector detector;
+    auto& map = const_cast<VoxelMap&>(world.perception.map());
+    auto& field = const_cast<DistanceField&>(world.perception.field());
+    CostTable free;
+    VmpOptions options;
+    options.builder.max_nodes = 1000;
+    options.look_ahead_rad = 0.0;  // a search at every view
+    VmpPlanner planner(options);
+    PlanningScene scene{.robot = &world.robot,
+                        .ik = &world.ik,
+                        .map = &map,
+                        .checker = &world.checker,
+                        .judge = &world.simulation.judge().checker(),
+                        .costs = &free,
+                        .segment = world.frame,
+                        .seed = 1};
+    planner.begin_segment(scene);
+    planner.map_changed(world.home.change);
+    Configuration q = world.frame.home;
+    free[Work::candidate] = 1e-6;
+    const Ports ports = world.simulation.ports();
+    for (int step = 0; step <= kSteps; ++step) {
+      // The graph is full when the frame comes, as it is after the arm's motion.
+      for (int i = 0; i < 2000 && planner.status().graph_nodes < 1000; ++i) {
+        WorkMeter work;
+        planner.grow(1e-3, work);
+      }
+      nodes += planner.status().graph_nodes;
+      const RgbdFrame frame = ports.camera->capture().value();
+      WorkMeter work;
+      state.ResumeTiming();
+      const double begin_s = cpu_now_s();
+      const Detection seen = detector.detect(frame);
+      MapChange change;
+      change.blocks = fuse(map, frame, seen.fruit).changed;
+      const double fused_s = cpu_now_s();
+      field.update(map, change.blocks);
+      change.targets = extract_frontiers(map, world.frame.sampling_region_world);
+      planner.map_changed(std::move(change));
+      const Decision decision = planner.decide(q, work);
+      const double end_s = cpu_now_s();
+      took_s.push_back(end_s - begin_s);
+      planner_s.push_back(end_s - fused_s);
+      state.PauseTiming();
+      if (decision.action != Decision::Action::move) continue;
+      static_cast<void>(ports.arm->start(decision.motion.waypoints).value());
+      static_cast<void>(ports.arm->finish().value());
+      q = ports.arm->configuration();
+    }
+    state.ResumeTiming();
+  }
+  std::sort(took_s.begin(), took_s.end());
+  std::sort(planner_s.begin(), planner_s.end());
+  state.counters["p50_ms"] = 1e3 * took_s[took_s.size() / 2];
+  state.counters["p95_ms"] = 1e3 * took_s[took_s.size() * 95 / 100];
+  state.counters["after_fusing_p95_ms"] = 1e3 * planner_s[planner_s.size() * 95 / 100];
+  state.counters["nodes"] = nodes / static_cast<double>(took_s.size());
+}
+BENCHMARK(replan)->Iterations(1)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace canopeer
+
+int main(int argc, char** argv) {
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  using canopeer::BenchRow;
+  const std::vector<BenchRow> rows = {
+      {.name = "planner.expansions_cold",
+       .ours = "expansions_cold",
+       .baseline = "expansions_octomap",
+       .unit = "1/s"},
+      {.name = "planner.expansions",
+       .ours = "expansions",
+       .baseline = "expansions_octomap",
+       .unit = "1/s"},
+      // The published graph builder: 92 nodes in 5 s of one thread.
+      {.name = "planner.graph_1s",
+       .ours = "graph_1s",
+       .unit = "nodes",
+       .counter = "nodes",
+       .more_is_better = true,
+       .stated = 92.0 / 5.0},
+      {.name = "planner.graph_1s_degree",
+       .ours = "graph_1s",
+       .unit = "edges",
+       .counter = "degree",
+       .more_is_better = true},
+      {.name = "planner.replan_p95", .ours = "replan", .unit = "p95_ms", .counter = "p95_ms"},
+      // Of it, without detecting the fruit pixels and fusing the frame.
+      {.name = "planner.replan_after_fusing_p95",
+       .ours = "replan",
+       .unit = "p95_ms",
+       .counter = "after_fusing_p95_ms"},
+  };
+  return canopeer::run_benchmarks(argc, argv, rows);
+}

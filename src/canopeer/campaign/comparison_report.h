@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "canopeer/campaign/comparison.h"
+
+namespace canopeer {
+
+/// Writes into `out`: `comparison.html` (one file, no script, no network), `comparison.md`,
+/// `comparison.csv`, `runs.csv` and the plots as `plots/*.svg`. Any number of runs may be missing;
+/// the page says how many. The same runs give the same bytes.
+[[nodiscard]] Expected<void> write_comparison(const std::filesystem::path& out,
+                                              const CampaignPlan& plan,
+                                              const std::vector<RunFigures>& runs);
+
+}  // namespace canopeer

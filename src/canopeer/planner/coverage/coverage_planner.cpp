@@ -1,0 +1,34 @@
+#include "canopeer/planner/coverage/coverage_planner.h"
+
+namespace canopeer {
+
+CoveragePlanner::CoveragePlanner(const CoverageOptions& options) : options_(options) {}
+
+void CoveragePlanner::begin_segment(const PlanningScene& scene) {
+  scene_ = scene;
+  mover_ = std::make_unique<ViewMover>(scene, options_.motion);
+  const Box region_base =
+      transformed(scene.segment.sampling_region_world, scene.segment.T_world_base.inverse());
+  views_ = serpentine(scene.segment.workspace_base, region_base, options_.scan);
+  next_ = 0;
+}
+
+void CoveragePlanner::map_changed(MapChange) {}
+
+Decision CoveragePlanner::decide(const Configuration& q, WorkMeter& work) {
+  while (next_ < views_.size()) {
+    const FixedView& view = views_[next_++];
+    work.add(Work::candidate);
+    const auto goal = mover_->reach(scene_.segment.T_world_base * view.camera_base,
+                                    scene_.segment.T_world_base * view.target_base, q, work);
+    if (!goal) continue;
+    if (auto decision = mover_->go(q, *goal, TargetKind::none, work)) return *decision;
+  }
+  return {};  // the scan is done
+}
+
+void CoveragePlanner::time_passes(double) {}
+
+PlannerStatus CoveragePlanner::status() const { return {}; }
+
+}  // namespace canopeer

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "canopeer/map/block_directory.h"
+#include "canopeer/map/voxel_set.h"
+
+namespace canopeer {
+
+/// A voxel set laid out for one union at a time, over and over: C(n) of the node a search expands.
+/// Sets are prepared once (their blocks are numbered, and only the words with voxels in them kept);
+/// adding one is then an OR per word, counting what it would add an AND and a popcount. Memory
+/// grows with the number of prepared sets and of distinct blocks.
+class CellUnion {
+ public:
+  /// A set's non-empty 64 voxel slices by number of place.
+  struct Prepared {
+    std::vector<std::uint32_t> places;
+    std::vector<std::uint64_t> words;
+  };
+
+  [[nodiscard]] Prepared prepare(const VoxelSet& set);
+  /// Empties the union; prepared sets stay valid.
+  void clear();
+  void add(const Prepared& set);
+  /// |set \ union|: by how much add(set) would make the union grow.
+  [[nodiscard]] std::int64_t count_new(const Prepared& set) const;
+
+ private:
+  BlockDirectory blocks_;
+  std::vector<std::uint64_t> words_;    // by place: block number · 8 + slice
+  std::vector<std::uint32_t> written_;  // blocks that are not empty, maybe more than once
+};
+
+}  // namespace canopeer
