@@ -20,8 +20,9 @@ void calibrate(const CalibrateArguments& arguments) {
   MissionArguments mission = arguments.mission;
   if (mission.path.empty()) mission.path = (data / "missions" / "smoke.yaml").string();
   const MissionFile file = load(mission);
-  const RobotModel robot = value_or_stop(load_robot(file.robot), kBadInput);
+  const RobotModel robot = value_or_stop(load_robot(file.robot, file.T_frame_camera), kBadInput);
   const ArmIk ik = value_or_stop(ArmIk::make(robot), kBadInput);
+  value_or_stop(make_detector(file.mission.detector), kBadInput);
   const ImportedScene world = build_world_or_stop(file.world, file.mission.seed, arguments.quiet);
   const CostTable costs = measure_costs(
       robot, ik, world.scene, file.mission, file.simulation, [&](std::string_view what) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "canopeer/base/rng.h"
-#include "canopeer/scene/row_world.h"
+#include "canopeer/scene/worlds.h"
 
 namespace canopeer {
 namespace {

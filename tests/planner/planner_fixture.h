@@ -52,7 +52,8 @@ class PlannerFixture {
     StageTimer timer;
     auto seen = world.perception.observe(ports.camera->capture().value(),
                                          world.frame.sampling_region_world, work, timer);
-    planner->map_changed(std::move(seen.change));
+    ASSERT_TRUE(seen.has_value());
+    planner->map_changed(std::move(seen->change));
   }
 
   PlanningFixture world;

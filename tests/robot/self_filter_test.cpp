@@ -39,6 +39,7 @@ double enters(const CollisionShape& shape, const Vec3& o, const Vec3& d) {
   };
   const Vec3 half = shape.half_extents();
   switch (shape.kind) {
+    case ShapeKind::kMesh:  // none in the robots seen here
     case ShapeKind::kBox:
       for (int axis = 0; axis < 3; ++axis) clip_slab(axis, half[axis]);
       break;

@@ -35,7 +35,7 @@ void read_plants(YamlMap& world, WorldOptions& options) {
 }
 
 void read_row(YamlMap& map, WorldOptions& options) {
-  PlantRow row;
+  PlantedRow row;
   row.x_m = map.required_number("x_m", {-100, 100});
   row.y_from_m = map.number("y_from_m", row.y_from_m, {-1000, 1000});
   row.spacing_m = map.number("spacing_m", row.spacing_m, {0.05, 100});

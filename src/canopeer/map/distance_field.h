@@ -19,7 +19,7 @@ struct DistanceFieldOptions {
   double truncation_m = 0.15;  ///< larger distances are reported as this; at most 120 voxels
   DistanceTo to = DistanceTo::occupied;
   /// Where unknown voxels count as free after all (their centres in here); empty: nowhere.
-  Box assumed_free;
+  Box assumed_free{};
 };
 
 /// Truncated distance to the nearest occupied voxel (or what DistanceTo says), for the many

@@ -41,7 +41,7 @@ WorldOptions crop(const std::string& name, PlantPreset preset, int count, double
 
 }  // namespace
 
-void add_row(const PlantRow& row, WorldOptions* options) {
+void add_row(const PlantedRow& row, WorldOptions* options) {
   for (int i = 0; i < row.count; ++i) {
     PlantPlacement placement;
     if (!row.kinds.empty()) {

@@ -35,7 +35,7 @@ const std::vector<std::string>& world_names();
 std::optional<WorldOptions> named_world(const std::string& name);
 
 /// A row of plants along y.
-struct PlantRow {
+struct PlantedRow {
   double x_m = 0.75;
   double y_from_m = -1.25;
   double spacing_m = 0.5;
@@ -46,6 +46,6 @@ struct PlantRow {
 };
 
 /// Adds its plants to the world.
-void add_row(const PlantRow& row, WorldOptions* options);
+void add_row(const PlantedRow& row, WorldOptions* options);
 
 }  // namespace canopeer

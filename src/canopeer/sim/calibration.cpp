@@ -55,10 +55,12 @@ class Bench {
         plan_(mission.segments.front()),
         home_(robot.home("side_" + std::to_string(plan_.side))),
         simulation_(robot, scene, home_, plan_.trolley, options),
-        detector_(mission.detector),
         map_(mission.map),
         field_(field_options(), map_.resolution_m()),
         checker_(robot, plan_.trolley, mission.collision) {
+    auto detector = make_detector(mission.detector);
+    CANOPEER_CHECK(detector.has_value(), "the mission's detector was made before");
+    detector_ = std::move(*detector);
     frame_.trolley = plan_.trolley;
     frame_.T_world_base = robot.T_world_base(plan_.trolley);
     frame_.workspace_base = robot.workspace(plan_.side);
@@ -84,7 +86,7 @@ class Bench {
       targets = current_targets();
     }
     costs[Work::detect_frame] = best_per_unit([&] {
-      for (const auto& frame : frames) static_cast<void>(detector_.detect(frame));
+      for (const auto& frame : frames) static_cast<void>(detector_->detect(frame));
       return frames.size();
     });
     costs[Work::fuse_point] = best_per_unit([&] {
@@ -227,8 +229,9 @@ class Bench {
     return std::move(*frame);
   }
   void take_in(const RgbdFrame& frame) {
-    const Detection seen = detector_.detect(frame);
-    field_.update(map_, fuse(map_, frame, seen.fruit, mission_.fusion).changed);
+    const auto seen = detector_->detect(frame);
+    CANOPEER_CHECK(seen.has_value(), "a detector that was made detects");
+    field_.update(map_, fuse(map_, frame, seen->fruit, mission_.fusion).changed);
   }
   [[nodiscard]] TargetSampler current_targets() const {
     return {extract_frontiers(map_, frame_.sampling_region_world), map_.resolution_m(),
@@ -241,7 +244,7 @@ class Bench {
   SegmentPlan plan_;
   Configuration home_;
   Simulation simulation_;
-  ColorDetector detector_;
+  std::unique_ptr<Detector> detector_;
   VoxelMap map_;
   DistanceField field_;
   CollisionChecker checker_;
