@@ -9,12 +9,13 @@ targets=("${@:2}")
 [ -f build/fuzz/build.ninja ] || cmake --preset fuzz >/dev/null
 cmake --build build/fuzz -j 2 --target fuzz_seeds "${targets[@]/#/fuzz_}"
 build/fuzz/bin/fuzz_seeds build/fuzz/corpus
+# A small map file may mean 256³ voxels: with sanitizers, on a busy machine, that takes a while and is no hang.
 for target in "${targets[@]}"; do
   log=build/fuzz/corpus/$target.log
   dictionary=()
   [ ! -f "fuzz/$target.dict" ] || dictionary=(-dict="fuzz/$target.dict")
   mkdir -p "build/fuzz/corpus/$target"
-  if ! build/fuzz/bin/fuzz_"$target" -max_total_time="$seconds" -rss_limit_mb=1024 -malloc_limit_mb=512 -timeout=10 -max_len=20000 \
+  if ! build/fuzz/bin/fuzz_"$target" -max_total_time="$seconds" -rss_limit_mb=1024 -malloc_limit_mb=512 -timeout=120 -max_len=20000 \
     "${dictionary[@]}" -artifact_prefix=build/fuzz/corpus/"$target"- -print_final_stats=1 build/fuzz/corpus/"$target" >"$log" 2>&1; then
     tail -n 40 "$log" >&2
     echo "$target: found an input that fails, see above and $log" >&2

@@ -271,8 +271,11 @@ std::string gltf(const std::vector<Painted>& surfaces, const std::string& bin_fi
               << R"(]},{"bufferView":)" << 2 * index + 1
               << R"(,"componentType":5125,"type":"SCALAR","count":)" << 3 * s.mesh.triangles.size()
               << "}";
+    // Linear light, as the format has it; sRGB's curve nearly enough.
+    const auto linear = [](int level) { return std::pow(level / 255.0, 2.2); };
     materials << comma << R"({"name":")" << s.material
-              << R"(","pbrMetallicRoughness":{"baseColorFactor":[0.6,0.02,0.003,1]}})";
+              << R"(","pbrMetallicRoughness":{"baseColorFactor":[)" << linear(s.color.r) << ','
+              << linear(s.color.g) << ',' << linear(s.color.b) << R"(,1]}})";
     primitives << comma << R"({"attributes":{"POSITION":)" << 2 * index << R"(},"indices":)"
                << 2 * index + 1 << R"(,"material":)" << index << "}";
     at += points + corners;

@@ -78,6 +78,35 @@ TEST(ScanRows, FruitsMayComeAsASecondMesh) {
   EXPECT_EQ(world->scene.counted_fruits(), 2);
 }
 
+TEST(ScanRows, GltfAndPlyScansStandInARowInTurn) {
+  const test::WorldFiles files;
+  std::vector<test::Painted> metres = scanned();
+  for (auto& s : metres) {
+    for (auto& v : s.mesh.vertices) v *= 0.001F;
+  }
+  files.add("scan.bin", test::gltf_bin(metres));
+  files.add("scan.gltf", test::gltf(metres, "scan.bin"));
+  files.add("scan.ply", test::colored_ply(metres));
+  const auto world = place_scans(
+      parse(files,
+            "scans:\n"
+            "  - {name: a, mesh: scan.gltf, fruit_color: {hue_low_deg: -20, hue_high_deg: 40}}\n"
+            "  - {name: b, mesh: scan.ply, fruit_color: {hue_low_deg: -20, hue_high_deg: 40}}\n"
+            "rows:\n"
+            "  - {x_m: 0, y_from_m: 0, spacing_m: 1, count: 4, scans: [a, b]}\n"));
+  ASSERT_TRUE(world.has_value()) << world.error().message;
+  ASSERT_EQ(world->scene.fruits.size(), 8U);
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 expected = 1e-3 * (kRed - Vec3(0, 0, 100)) + Vec3(0, i, 0);
+    const std::string model = (i % 2 == 0 ? "a_" : "b_") + std::to_string(i + 1);
+    EXPECT_TRUE(std::any_of(world->scene.fruits.begin(), world->scene.fruits.end(),
+                            [&](const FruitTruth& f) {
+                              return (f.centre - expected).norm() < 1e-5 && f.model == model;
+                            }))
+        << i;
+  }
+}
+
 TEST(ScanRows, YUpScansStandUp) {
   const test::WorldFiles files;
   test::Painted fruit = scanned()[2];

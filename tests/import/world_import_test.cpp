@@ -154,6 +154,29 @@ TEST(WorldImport, TexturesAreFoundAndCut) {
   EXPECT_EQ(part.uv.size(), part.mesh.vertices.size());
 }
 
+TEST(WorldImport, ThinDoubleShellsStayApart) {
+  // Leaves are two sheets 1 mm apart; of two fruits as near to each other none swallows the other.
+  const test::WorldFiles files;
+  const double gap = 0.001;
+  files.add("p.dae", test::dae({{"leaf_top", test::sheet(Vec3(0, 0, gap), Vec3(1, 1, gap)), {}, ""},
+                                {"leaf_bottom", test::sheet(Vec3(0, 0, 0), Vec3(1, 1, 0)), {}, ""},
+                                {"fruit_a", test::ball(Vec3(0, 0, 1), 0.04), {}, ""},
+                                {"fruit_b", test::ball(Vec3(0.08 + gap, 0, 1), 0.04), {}, ""}}));
+  const auto world = files.add_world("<model name=\"p\"><link name=\"l\">" +
+                                     test::mesh_visual("p.dae") + "</link></model>");
+  const ImportedScene imported = import(options_for(files, world));
+  EXPECT_EQ(imported.scene.fruits.size(), 2U);
+  std::vector<double> heights;
+  for (const ScenePart& part : imported.scene.parts) {
+    if (part.kind != PartClass::leaf) continue;
+    EXPECT_EQ(part.mesh.triangles.size(), 2U);
+    heights.push_back(part.mesh.bounds().max().z());
+  }
+  std::sort(heights.begin(), heights.end());
+  ASSERT_EQ(heights.size(), 2U);
+  EXPECT_NEAR(heights[1] - heights[0], gap, 1e-7);
+}
+
 TEST(WorldImport, WithoutATextureItGoesOnWithoutAMeshNot) {
   const test::WorldFiles files;
   files.add("models/p/meshes/p.dae",
