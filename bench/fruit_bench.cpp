@@ -1,11 +1,10 @@
 // The fruit map's two costs: fitting one shape, and an update of a whole row after a frame.
 #include <benchmark/benchmark.h>
-#include <time.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
+#include <ctime>
 
 #include "auto_diff_fit.h"
 #include "bench_rows.h"

@@ -18,17 +18,31 @@ constexpr float kMinWeight = 0.1F;  // about one frame from 1.5 m
 constexpr int kEdges[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
                                {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
 
-/// The voxels of a block and the first layer beyond its upper sides; null: never seen.
-struct Corners {
-  std::array<const TsdfVoxel*, kCorners * kCorners * kCorners> voxel{};
+constexpr std::uint8_t kUnseen = 4;
+constexpr std::uint8_t kOutside = 1;
+constexpr std::uint8_t kInside = 2;
 
-  const TsdfVoxel*& at(int x, int y, int z) {
-    return voxel[static_cast<std::size_t>(x + kCorners * (y + kCorners * z))];
+/// The voxels of a block and the first layer beyond its upper sides, and on which side of the
+/// surface each is: most cells are told from that alone.
+struct Corners {
+  std::array<const TsdfVoxel*, kCorners * kCorners * kCorners> voxel;
+  std::array<std::uint8_t, kCorners * kCorners * kCorners> side;
+
+  static std::size_t index(int x, int y, int z) {
+    return static_cast<std::size_t>(x + kCorners * (y + kCorners * z));
+  }
+  /// Whether the surface goes through the cell and all its corners were seen.
+  [[nodiscard]] bool crossed(int x, int y, int z) const {
+    const std::uint8_t* s = side.data() + index(x, y, z);
+    constexpr int kUp = kCorners * kCorners;
+    return (s[0] | s[1] | s[kCorners] | s[kCorners + 1] | s[kUp] | s[kUp + 1] |
+            s[kUp + kCorners] | s[kUp + kCorners + 1]) == (kOutside | kInside);
   }
 };
 
 Corners corners_of(const FruitTsdf& tsdf, const FruitTsdf::Block& block) {
   Corners corners;
+  corners.side.fill(kUnseen);
   const FruitTsdf::Block* around[8];
   for (int k = 0; k < 8; ++k) {
     const int number = tsdf.block_at(block.index + VoxelIndex(k & 1, (k >> 1) & 1, k >> 2));
@@ -41,7 +55,9 @@ Corners corners_of(const FruitTsdf& tsdf, const FruitTsdf::Block& block) {
         if (around[k] == nullptr) continue;
         const TsdfVoxel& v = around[k]->voxels[static_cast<std::size_t>(
             FruitTsdf::offset(x % kSide, y % kSide, z % kSide))];
-        if (v.weight >= kMinWeight) corners.at(x, y, z) = &v;
+        if (v.weight < kMinWeight) continue;
+        corners.voxel[Corners::index(x, y, z)] = &v;
+        corners.side[Corners::index(x, y, z)] = v.distance_m < 0.0F ? kInside : kOutside;
       }
     }
   }
@@ -106,20 +122,16 @@ std::optional<SurfaceVertex> vertex_of(const std::array<const TsdfVoxel*, 8>& c,
 }  // namespace
 
 std::vector<SurfaceVertex> FruitSurface::extract(const FruitTsdf::Block& block) const {
-  Corners corners = corners_of(tsdf_, block);
+  const Corners corners = corners_of(tsdf_, block);
   std::vector<SurfaceVertex> vertices;
   std::array<const TsdfVoxel*, 8> c{};
   for (int z = 0; z < kSide; ++z) {
     for (int y = 0; y < kSide; ++y) {
       for (int x = 0; x < kSide; ++x) {
-        bool all_seen = true;
-        int inside = 0;
-        for (int k = 0; k < 8 && all_seen; ++k) {
-          c[k] = corners.at(x + (k & 1), y + ((k >> 1) & 1), z + (k >> 2));
-          all_seen = c[k] != nullptr;
-          inside += all_seen && c[k]->distance_m < 0.0F;
+        if (!corners.crossed(x, y, z)) continue;
+        for (int k = 0; k < 8; ++k) {
+          c[k] = corners.voxel[Corners::index(x + (k & 1), y + ((k >> 1) & 1), z + (k >> 2))];
         }
-        if (!all_seen || inside == 0 || inside == 8) continue;
         const VoxelIndex cell = block.index * kSide + VoxelIndex(x, y, z);
         auto vertex = vertex_of(c, cell, tsdf_.options().voxel_m);
         if (vertex) vertices.push_back(*vertex);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kPxPerM = 1100.0;
 constexpr double kViewPx = 128.0;  // side of a view; a fruit of 11 cm fits
-constexpr double kTextPx = 50.0;
+constexpr double kTextPx = 66.0;
 constexpr double kGapPx = 14.0;
 constexpr double kCardWidth = 2.0 * kViewPx + kGapPx;
 constexpr double kCardHeight = kViewPx + kTextPx + kGapPx;
@@ -115,8 +115,10 @@ std::string card_svg(const GalleryFruit& fruit, const Point2& corner) {
                      corner.x(), corner.y() + 12.0, e.id, escape_html(what));
   std::string volume = fmt::format("{:.0f} ± {:.0f} cm³", e.volume_cm3, e.volume_sd_cm3);
   if (fruit.truth) volume += fmt::format(" (true {:.0f})", fruit.truth->volume_cm3);
-  svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}, {:.0f} % seen, confidence {:.2f}</text>\n",
-                     corner.x(), corner.y() + 30.0, volume, 100.0 * e.seen_share, e.confidence);
+  svg += fmt::format(
+      "<text x=\"{0:.1f}\" y=\"{1:.1f}\">{3}</text>\n<text x=\"{0:.1f}\" y=\"{2:.1f}\">{4:.0f} % seen, "
+      "confidence {5:.2f}</text>\n",
+      corner.x(), corner.y() + 29.0, corner.y() + 45.0, volume, 100.0 * e.seen_share, e.confidence);
   const Point2 views = corner + Point2(0.0, kTextPx - 10.0);
   svg += view_svg(fruit, true, views);
   svg += view_svg(fruit, false, views + Point2(kViewPx + 0.5 * kGapPx, 0.0));
