@@ -94,6 +94,13 @@ struct CalibrateArguments {
   bool quiet = false;
 };
 
+struct RobotCheckArguments {
+  std::string robot;
+  std::string out;
+  int views = 4000;
+  int states = 10000;
+};
+
 // The commands. Each ends by returning, or by throwing Stop.
 void run(const RunArguments& arguments);
 void bench(const BenchArguments& arguments);
@@ -104,6 +111,7 @@ void scene_inspect(const SceneArguments& arguments);
 void scene_generate(const SceneArguments& arguments);
 void scene_import(const ImportArguments& arguments);
 void fruit_fit(const FruitFitArguments& arguments);
+void robot_check(const RobotCheckArguments& arguments);
 void map_info(const std::string& file);
 void map_convert(const std::string& in, const std::string& out);
 void map_fuse(const MapFuseArguments& arguments);

@@ -223,6 +223,22 @@ void add_map(CLI::App& app, MapArguments& arguments) {
   add_map_fuse(*map, arguments.fuse);
 }
 
+void add_robot(CLI::App& app, RobotCheckArguments& a) {
+  CLI::App* robot = app.add_subcommand("robot", "Look at the description of a robot");
+  robot->require_subcommand(1);
+  CLI::App* check = robot->add_subcommand(
+      "check", "Say what a robot's files describe and what is wrong; write pictures and an SRDF");
+  check->add_option("robot", a.robot, "The robot.yaml")->required();
+  check->add_option("--out", a.out, "Directory for the results (default: out/robot)");
+  check->add_option("--views", a.views, "Random views a side to reach for")
+      ->check(CLI::Range(1, 10000000))
+      ->capture_default_str();
+  check->add_option("--states", a.states, "Random states in which links may touch")
+      ->check(CLI::Range(1, 10000000))
+      ->capture_default_str();
+  check->callback([&a] { robot_check(a); });
+}
+
 int parse_and_run(int argc, char** argv) {
   CLI::App app{
       "Plans where a robot's camera looks next, so that every fruit behind the leaves is found."};
@@ -242,6 +258,8 @@ int parse_and_run(int argc, char** argv) {
   add_fruit(app, fruit_arguments);
   MapArguments map_arguments;
   add_map(app, map_arguments);
+  RobotCheckArguments robot_arguments;
+  add_robot(app, robot_arguments);
   app.add_subcommand("version", "Print the version")->callback([] {
     std::printf("canopeer %s\n", CANOPEER_VERSION);
   });

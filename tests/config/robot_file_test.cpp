@@ -95,15 +95,73 @@ TEST(Urdf, PassesOnWhatTheParserDislikesWithTheLine) {
   EXPECT_EQ(robot.error().message.rfind("a.urdf:4: ", 0), 0U) << robot.error().message;
 }
 
-TEST(Urdf, RefusesMeshesAndMimicJointsByName) {
-  const auto mesh = parse_urdf(
-      "<robot name='r'>\n<link name='a'>\n<collision><geometry><mesh filename='a.stl'/>"
-      "</geometry></collision></link></robot>",
-      "a.urdf");
-  ASSERT_FALSE(mesh);
-  EXPECT_EQ(mesh.error().message,
-            "a.urdf:2: link 'a': mesh collision shapes are not supported yet: use boxes, cylinders "
-            "or spheres");
+/// A folder of its own for the running test, removed afterwards.
+class RobotMeshes : public ::testing::Test {
+ protected:
+  RobotMeshes()
+      : directory_(std::filesystem::temp_directory_path() /
+                   (std::string("canopeer_meshes_") +
+                    ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    std::filesystem::create_directories(directory_ / "my_arm" / "urdf");
+    std::filesystem::create_directories(directory_ / "my_arm" / "meshes");
+  }
+  ~RobotMeshes() override { std::filesystem::remove_all(directory_); }
+
+  /// A wedge of 2 x 3 x 4 as OBJ.
+  void write_wedge(const std::filesystem::path& path) const {
+    ASSERT_TRUE(
+        write_file(path,
+                   "v 0 0 0\nv 2 0 0\nv 0 3 0\nv 0 0 4\nv 2 0 4\nv 0 3 4\n"
+                   "f 1 3 2\nf 4 5 6\nf 1 2 5\nf 1 5 4\nf 2 3 6\nf 2 6 5\nf 3 1 4\nf 3 4 6\n"));
+  }
+  [[nodiscard]] Expected<RobotDescription> parse(const std::string& mesh,
+                                                 const std::string& scale = "") const {
+    return parse_urdf("<robot name='r'>\n<link name='a'>\n<collision><geometry><mesh filename='" +
+                          mesh + "'" + scale + "/></geometry></collision></link></robot>",
+                      "a.urdf", {directory_ / "my_arm" / "urdf", {}});
+  }
+
+  std::filesystem::path directory_;
+};
+
+TEST_F(RobotMeshes, AreFoundInThePackageAndBesideTheFile) {
+  write_wedge(directory_ / "my_arm" / "meshes" / "wedge.obj");
+  for (const char* name : {"package://my_arm/meshes/wedge.obj", "../meshes/wedge.obj"}) {
+    const auto robot = parse(name, " scale='0.1 0.1 0.1'");
+    ASSERT_TRUE(robot) << robot.error().message;
+    const CollisionShape& shape = robot->links.at(0).collision.at(0);
+    EXPECT_EQ(shape.kind, ShapeKind::kMesh);
+    EXPECT_TRUE(shape.size_m.isApprox(Vec3(0.2, 0.3, 0.4), 1e-6));
+    EXPECT_EQ(shape.mesh->triangles.triangles.size(), 8U);
+    // The solid around it holds all its vertices, and more than the wedge: 26 directions only.
+    for (const auto& vertex : shape.mesh->triangles.vertices) {
+      for (const auto& plane : shape.mesh->planes)
+        EXPECT_LE(plane.normal.dot(vertex.cast<double>()), plane.offset_m + 1e-12);
+    }
+  }
+}
+
+TEST_F(RobotMeshes, ThatAreMissingAreNamedWithTheLineAndWhereTheyWereLookedFor) {
+  const auto robot = parse("package://my_arm/meshes/none.stl");
+  ASSERT_FALSE(robot);
+  EXPECT_EQ(
+      robot.error().message.rfind("a.urdf:2: link 'a': mesh 'package://my_arm/meshes/none.stl' "
+                                  "not found; looked in ",
+                                  0),
+      0U)
+      << robot.error().message;
+  EXPECT_NE(robot.error().message.find("package_path"), std::string::npos);
+  const auto web = parse("http://example.org/a.stl");
+  ASSERT_FALSE(web);
+  EXPECT_NE(web.error().message.find("expected package://"), std::string::npos);
+}
+
+TEST(RobotFile, ReadsTheArmOnARail) {
+  const auto robot = load_robot(CANOPEER_SOURCE_DIR "/robots/panda_rail/robot.yaml");
+  ASSERT_TRUE(robot) << robot.error().message;
+  EXPECT_EQ(robot->dof(), 8);
+  EXPECT_EQ(robot->arm_joint_type(0), JointType::kPrismatic);
+  EXPECT_DOUBLE_EQ(robot->limits().upper[0], 0.5);
 }
 
 TEST(Urdf, ReadsFramesAxesLimitsAndShapes) {

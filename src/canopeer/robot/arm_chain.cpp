@@ -98,8 +98,8 @@ void ArmChain::turn_any(const Segment& segment, const Eigen::Matrix4d& parent, d
   if (segment.motion != Motion::kFixed && segment.motion != Motion::kAlong) {  // Rodrigues
     const Vec3& a = segment.axis;
     const Eigen::Matrix3d across{{0.0, -a.z(), a.y()}, {a.z(), 0.0, -a.x()}, {-a.y(), a.x(), 0.0}};
-    R = R * (cosine * Eigen::Matrix3d::Identity() + sine * across +
-             (1.0 - cosine) * a * a.transpose());
+    R = R *
+        (cosine * Eigen::Matrix3d::Identity() + sine * across + (1.0 - cosine) * a * a.transpose());
   }
   for (int k = 0; k < 3; ++k)
     own.col(k) = parent.col(0) * R(0, k) + parent.col(1) * R(1, k) + parent.col(2) * R(2, k);
@@ -117,8 +117,7 @@ void ArmChain::poses(const Configuration& q, const Pose& T_root, Pose* T) const 
     const Segment& segment = segments_[i];
     const Eigen::Matrix4d& parent = (segment.parent < 0 ? T_root : T[segment.parent]).matrix();
     Eigen::Matrix4d& own = T[i].matrix();
-    const bool about_axis =
-        segment.motion >= Motion::kAboutX && segment.motion <= Motion::kAboutZ;
+    const bool about_axis = segment.motion >= Motion::kAboutX && segment.motion <= Motion::kAboutZ;
     if (segment.turn == Turn::kSwap && about_axis) {
       turn_swapped(segment, parent, sines[segment.arm_joint], cosines[segment.arm_joint], own);
     } else if (segment.turn == Turn::kSwap && segment.motion != Motion::kAboutAxis) {

@@ -9,9 +9,9 @@
 namespace canopeer {
 namespace {
 
-constexpr double kSamePoint = 1e-9;      // waypoints nearer to each other than this are one
-constexpr double kSmallestRadius = 1e-5; // sharper corners are stopped at
-constexpr double kStraight = 1e-9;       // rad: no corner at all
+constexpr double kSamePoint = 1e-9;       // waypoints nearer to each other than this are one
+constexpr double kSmallestRadius = 1e-5;  // sharper corners are stopped at
+constexpr double kStraight = 1e-9;        // rad: no corner at all
 
 }  // namespace
 

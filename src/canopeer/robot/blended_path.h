@@ -16,13 +16,13 @@ class BlendedPath {
  public:
   /// A line (start + s·direction) or an arc (centre + r·(x cos(s/r) + y sin(s/r))).
   struct Piece {
-    double begin = 0.0;   ///< path length at its start
-    double length = 0.0;  ///< > 0
-    double radius = 0.0;  ///< 0: a line
-    Configuration origin; ///< line: start; arc: centre
-    Configuration x;      ///< line: unit direction; arc: unit vector from the centre to the start
-    Configuration y;      ///< arc: unit direction at the start
-    bool stops = false;   ///< the piece ends in a corner, or the path ends with it
+    double begin = 0.0;    ///< path length at its start
+    double length = 0.0;   ///< > 0
+    double radius = 0.0;   ///< 0: a line
+    Configuration origin;  ///< line: start; arc: centre
+    Configuration x;       ///< line: unit direction; arc: unit vector from the centre to the start
+    Configuration y;       ///< arc: unit direction at the start
+    bool stops = false;    ///< the piece ends in a corner, or the path ends with it
   };
 
   /// At least one waypoint, all of one size; repeated ones count once. `max_deviation` ≥ 0.

@@ -8,23 +8,24 @@ namespace canopeer {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kOnAxis = 1e-7;      // metres or sine: the camera looks along the last axis
-constexpr double kSame = 1e-9;        // configurations nearer to each other than this are one
-constexpr int kSamplesOfALead = 9;    // positions of a rail, evenly spread over its length
+constexpr double kOnAxis = 1e-7;    // metres or sine: the camera looks along the last axis
+constexpr double kSame = 1e-9;      // configurations nearer to each other than this are one
+constexpr int kSamplesOfALead = 9;  // positions of a rail, evenly spread over its length
 constexpr int kMostLeadSamples = 81;
 
 /// Evenly spread positions of the joints before the closed form.
 std::vector<Configuration> spread(const ArmGeometry& geometry, int leads) {
   std::vector<Configuration> samples;
   if (leads == 0) return samples;
-  const int each = leads == 1 ? kSamplesOfALead : std::max(2, static_cast<int>(std::pow(
-                                                                  kMostLeadSamples, 1.0 / leads)));
+  const int each = leads == 1
+                       ? kSamplesOfALead
+                       : std::max(2, static_cast<int>(std::pow(kMostLeadSamples, 1.0 / leads)));
   Eigen::VectorXi index = Eigen::VectorXi::Zero(leads);
   while (index[leads - 1] < each) {
     Configuration sample(leads);
     for (int i = 0; i < leads; ++i)
-      sample[i] = geometry.lower[i] +
-                  (geometry.upper[i] - geometry.lower[i]) * index[i] / (each - 1.0);
+      sample[i] =
+          geometry.lower[i] + (geometry.upper[i] - geometry.lower[i]) * index[i] / (each - 1.0);
     samples.push_back(sample);
     for (int i = 0; i < leads; ++i) {
       if (++index[i] < each || i + 1 == leads) break;
@@ -66,8 +67,8 @@ Expected<std::unique_ptr<IkSolver>> ClosedFormIk::make(const ArmGeometry& geomet
     const std::string not_ur = form.error().message;
     form = make_spherical_wrist_form(tail);
     if (!form)
-      return fail("not built like a UR: " + not_ur + "; no spherical wrist: " +
-                  form.error().message);
+      return fail("not built like a UR: " + not_ur +
+                  "; no spherical wrist: " + form.error().message);
   }
   std::unique_ptr<ClosedFormIk> ik(new ClosedFormIk);
   ik->form_ = std::move(*form);
@@ -132,7 +133,8 @@ void ClosedFormIk::for_each_lead(const Configuration& reference, Solve&& solve) 
     if (k > 0) near.head(leads_) = lead_samples_[k - 1];
     Pose T_base_tail = Pose::Identity();
     for (int i = 0; i < leads_; ++i)
-      T_base_tail = T_base_tail * joint_motion(geometry_.axes[static_cast<std::size_t>(i)], near[i]);
+      T_base_tail =
+          T_base_tail * joint_motion(geometry_.axes[static_cast<std::size_t>(i)], near[i]);
     solve(T_base_tail, near);
   }
 }

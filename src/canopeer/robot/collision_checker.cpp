@@ -164,17 +164,16 @@ bool CollisionChecker::measure_map(const State& state, const Required& required,
 double CollisionChecker::shape_clearance(const State& state, const ArmLink& arm_link, int sphere,
                                          double margin_m) const {
   const CollisionShape& shape = *sphere_shapes_[sphere];
-  const Pose T_shape_world =
-      (state.T_world_link[arm_link.moving] * shape.T_link_shape).inverse();
+  const Pose T_shape_world = (state.T_world_link[arm_link.moving] * shape.T_link_shape).inverse();
   const Vec3 reach = Vec3::Constant(radii_m_[sphere] + margin_m);
   const double voxel = map_->resolution_m();
   double clearance = margin_m;
   map_->for_each_occupied(
       Box(state.centres[sphere] - reach, state.centres[sphere] + reach),
       [&](const VoxelIndex& index) {
-        clearance = std::min(
-            clearance, cube_distance(shape, T_shape_world * voxel_centre(index, voxel),
-                                     T_shape_world.linear(), voxel / 2.0));
+        clearance =
+            std::min(clearance, cube_distance(shape, T_shape_world * voxel_centre(index, voxel),
+                                              T_shape_world.linear(), voxel / 2.0));
       });
   return clearance;
 }
@@ -297,7 +296,8 @@ bool CollisionChecker::sweep(const Configuration& a, const Configuration& b,
   };
 
   // Breadth first, so that a blocked edge is found out early.
-  std::vector<Interval> open;
+  thread_local std::vector<Interval> open;  // keeps its room from call to call
+  open.clear();
   if (!covered(whole)) open.push_back(whole);
   for (std::size_t next = 0; next < open.size(); ++next) {
     const Interval interval = open[next];

@@ -14,11 +14,11 @@ constexpr int kTableSize = 2048;
 constexpr int kMaxStarts = 32;
 constexpr float kMetresPerRadian = 0.3F;  // how far off a camera's axis is, next to how far away
 constexpr int kMaxIterations = 40;
-constexpr int kPatience = 4;            // steps in a row that do not halve the error
-constexpr double kConverged = 1e-9;     // m and rad
-constexpr double kGiveUpAbove = 0.05;   // error after a while that no good end comes of
-constexpr double kLongestStep = 0.6;    // rad or m, any joint
-constexpr double kDistinct = 0.1;       // solutions nearer to each other count once
+constexpr int kPatience = 4;           // steps in a row that do not halve the error
+constexpr double kConverged = 1e-9;    // m and rad
+constexpr double kGiveUpAbove = 0.05;  // error after a while that no good end comes of
+constexpr double kLongestStep = 0.6;   // rad or m, any joint
+constexpr double kDistinct = 0.1;      // solutions nearer to each other count once
 
 /// Turn that brings `from` onto `to`, as axis times angle; unit vectors.
 Vec3 turn_between(const Vec3& from, const Vec3& to) {
@@ -88,8 +88,8 @@ int NumericIk::nearest_starts(const Goal& goal, int count, int* rows) const {
 
 template <int kEquations>
 bool NumericIk::converge(const Goal& goal, Configuration& q) const {
-  using Matrix = Eigen::Matrix<double, kEquations, Eigen::Dynamic, Eigen::ColMajor, kEquations,
-                               kMaxArmJoints>;
+  using Matrix =
+      Eigen::Matrix<double, kEquations, Eigen::Dynamic, Eigen::ColMajor, kEquations, kMaxArmJoints>;
   using Square = Eigen::Matrix<double, kEquations, kEquations>;
   using Vector = Eigen::Matrix<double, kEquations, 1>;
   const Configuration& lower = robot_.limits().lower;
@@ -106,7 +106,8 @@ bool NumericIk::converge(const Goal& goal, Configuration& q) const {
     error.template head<3>() = goal.T_base_camera.translation() - T.translation();
     if constexpr (kEquations == 5) {
       // A turn about the optical axis is free: only the parts along the image's axes count.
-      const Vec3 turn = turn_between(Vec3(T.linear().col(2)), Vec3(goal.T_base_camera.linear().col(2)));
+      const Vec3 turn =
+          turn_between(Vec3(T.linear().col(2)), Vec3(goal.T_base_camera.linear().col(2)));
       const Eigen::Matrix<double, 2, 3> image = T.linear().template leftCols<2>().transpose();
       error.template tail<2>() = image * turn;
       J.template topRows<3>() = full.template topRows<3>();

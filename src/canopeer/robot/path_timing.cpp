@@ -29,10 +29,11 @@ struct HalfPlane {
 struct Interval {
   double length = 0.0;
   int piece = 0;
-  bool stops = false;       // at its end
+  bool stops = false;        // at its end
+  bool line = false;         // a whole straight piece
   double max_x = kInfinity;  // by the velocity limits
   double max_u = kInfinity;  // by the acceleration limits, on a line
-  int first_plane = 0;      // on an arc; in the list of all
+  int first_plane = 0;       // on an arc; in the list of all
   int last_plane = 0;
 };
 
@@ -51,14 +52,14 @@ class Grid {
     for (std::size_t i = 0; i < path.pieces().size(); ++i) {
       const BlendedPath::Piece& piece = path.pieces()[i];
       const bool arc = piece.radius > 0.0;
-      const int count =
-          arc ? std::max(2, static_cast<int>(
-                                std::ceil(piece.length / piece.radius / options.arc_step_rad)))
-              : std::max(2, options.line_intervals);
+      const int count = arc ? std::max(2, static_cast<int>(std::ceil(piece.length / piece.radius /
+                                                                     options.arc_step_rad)))
+                            : 1;
       for (int k = 0; k < count; ++k) {
         Interval interval;
         interval.length = piece.length / count;
         interval.piece = static_cast<int>(i);
+        interval.line = !arc;
         interval.stops = piece.stops && k + 1 == count;
         interval.first_plane = static_cast<int>(planes_.size());
         arc ? limit_on_arc(piece, k * interval.length, limits, interval)
@@ -94,29 +95,33 @@ class Grid {
   /// width is concave and piecewise linear in x, so Newton's method from the right ends at its
   /// root after finitely many steps.
   [[nodiscard]] double controllable(const Interval& interval, double next_x) const {
+    if (interval.line)
+      return std::min(interval.max_x, next_x + 2.0 * interval.length * interval.max_u);
     double x = interval.max_x;
-    for (int step = 0; step < 60 && x > 0.0; ++step) {
+    for (int step = 0; step < 100; ++step) {
       const Span here = span(interval, x, next_x);
       const double width = here.high - here.low;
-      if (width >= -1e-12 * (1.0 + std::abs(here.high))) break;
+      if (width >= 0.0) break;
       const double slope = here.high_slope - here.low_slope;
-      if (!(slope < 0.0)) return 0.0;
-      x = std::max(0.0, x - width / slope);
+      const double closer = slope < 0.0 ? std::max(0.0, x - width / slope) : 0.0;
+      x = std::min(closer, x * (1.0 - 1e-13));  // never stuck at a bound that is all but vertical
     }
     return std::max(0.0, x * (1.0 - kBack));
   }
 
  private:
   static void tighten(Span& span, const HalfPlane& plane, double x) {
-    if (plane.slope_u == 0.0 || plane.limit == kInfinity) return;
-    const double bound = (plane.limit - plane.slope_x * x) / plane.slope_u;
-    if (plane.slope_u > 0.0 && bound < span.high) {
+    if (plane.limit == kInfinity) return;
+    // A slope of nothing limits x alone; a tiny one does the same here.
+    const double slope_u = std::abs(plane.slope_u) > 1e-14 ? plane.slope_u : 1e-14;
+    const double bound = (plane.limit - plane.slope_x * x) / slope_u;
+    if (slope_u > 0.0 && bound < span.high) {
       span.high = bound;
-      span.high_slope = -plane.slope_x / plane.slope_u;
+      span.high_slope = -plane.slope_x / slope_u;
     }
-    if (plane.slope_u < 0.0 && bound > span.low) {
+    if (slope_u < 0.0 && bound > span.low) {
       span.low = bound;
-      span.low_slope = -plane.slope_x / plane.slope_u;
+      span.low_slope = -plane.slope_x / slope_u;
     }
   }
 
@@ -159,8 +164,8 @@ class Grid {
       for (const double p : {tangent.low, tangent.high}) {
         for (const double k : {bend.low / r, bend.high / r}) {
           for (const double sign : {1.0, -1.0}) {
-            planes_.push_back({sign * p, sign * k, a});                    // X at the start
-            planes_.push_back({sign * (p + twice * k), sign * k, a});      // X at the end
+            planes_.push_back({sign * p, sign * k, a});                // X at the start
+            planes_.push_back({sign * (p + twice * k), sign * k, a});  // X at the end
           }
         }
       }
@@ -176,7 +181,19 @@ class Grid {
 PathMotion::PathMotion(const std::vector<Configuration>& waypoints, const JointLimits& limits,
                        const PathTimingOptions& options)
     : path_(waypoints, options.max_deviation), end_(waypoints.back()) {
-  CANOPEER_CHECK(options.line_intervals > 0 && options.arc_step_rad > 0.0, "a grid is needed");
+  time_path(limits, options);
+  const bool rounded = std::any_of(path_.pieces().begin(), path_.pieces().end(),
+                                   [](const auto& piece) { return piece.radius > 0.0; });
+  if (!rounded) return;
+  // A tight arc is passed slowly by a joint of little acceleration: stopping may be faster.
+  PathTimingOptions stopping = options;
+  stopping.max_deviation = 0.0;
+  PathMotion other(waypoints, limits, stopping);
+  if (other.duration_s() < duration_s()) *this = std::move(other);
+}
+
+void PathMotion::time_path(const JointLimits& limits, const PathTimingOptions& options) {
+  CANOPEER_CHECK(options.arc_step_rad > 0.0, "arcs are cut into steps");
   const Grid grid(path_, limits, options);
   const std::vector<Interval>& intervals = grid.intervals();
   if (intervals.empty()) return;
@@ -190,31 +207,47 @@ PathMotion::PathMotion(const std::vector<Configuration>& waypoints, const JointL
     if (k > 0) most[k] = std::min(most[k], intervals[k - 1].max_x);
   }
   // Forwards: as fast as that allows.
+  s_ = {0.0};
+  rate_ = {0.0};
+  times_s_ = {0.0};
   double x = 0.0;
-  double s = 0.0;
-  double t = 0.0;
-  for (std::size_t k = 0; k <= count; ++k) {
-    s_.push_back(s);
-    rate_.push_back(std::sqrt(x));
-    times_s_.push_back(t);
-    if (k == count) break;
-    const Interval& interval = intervals[k];
-    const double u = grid.span(interval, x, most[k + 1]).high;
-    const double next = std::clamp(x + 2.0 * interval.length * u, 0.0, most[k + 1]);
-    acceleration_.push_back((next - x) / (2.0 * interval.length));
+  const auto advance = [&](const Interval& interval, double length, double next) {
+    if (length <= 0.0) return;
+    acceleration_.push_back((next - x) / (2.0 * length));
     piece_.push_back(interval.piece);
-    t += 2.0 * interval.length / (std::sqrt(x) + std::sqrt(next));
-    s += interval.length;
+    times_s_.push_back(times_s_.back() + 2.0 * length / (std::sqrt(x) + std::sqrt(next)));
+    s_.push_back(s_.back() + length);
+    rate_.push_back(std::sqrt(next));
     x = next;
+  };
+  for (std::size_t k = 0; k < count; ++k) {
+    const Interval& interval = intervals[k];
+    if (!interval.line) {
+      const double u = grid.span(interval, x, most[k + 1]).high;
+      advance(interval, interval.length,
+              std::clamp(x + 2.0 * interval.length * u, 0.0, most[k + 1]));
+      continue;
+    }
+    // On a line: speed up, cruise unless it is too short, slow down.
+    const double u = interval.max_u;
+    const double end = std::min(most[k + 1], x + 2.0 * interval.length * u);
+    const double peak = std::min(interval.max_x, (x + end) / 2.0 + interval.length * u);
+    const double speeding = std::min(interval.length, std::max(0.0, peak - x) / (2.0 * u));
+    const double slowing =
+        std::min(interval.length - speeding, std::max(0.0, peak - end) / (2.0 * u));
+    const double highest = std::max(peak, x);
+    advance(interval, speeding, highest);
+    advance(interval, interval.length - speeding - slowing, highest);
+    advance(interval, slowing, end);
   }
 }
 
 PathMotion::Instant PathMotion::instant(double t_s) const {
   const double t = std::clamp(t_s, 0.0, duration_s());
   const auto after = std::upper_bound(times_s_.begin(), times_s_.end(), t);
-  const auto k = std::min(acceleration_.size() - 1,
-                          static_cast<std::size_t>(std::max<std::ptrdiff_t>(
-                              0, after - times_s_.begin() - 1)));
+  const auto k =
+      std::min(acceleration_.size() - 1,
+               static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, after - times_s_.begin() - 1)));
   const double passed = t - times_s_[k];
   Instant now;
   now.piece = piece_[k];
@@ -222,7 +255,8 @@ PathMotion::Instant PathMotion::instant(double t_s) const {
   now.rate = std::max(0.0, rate_[k] + now.acceleration * passed);
   // Rounding must not lead beyond the interval, into another piece's limits.
   now.rate = std::min(now.rate, std::max(rate_[k], rate_[k + 1]));
-  now.s = std::clamp(s_[k] + passed * (rate_[k] + 0.5 * now.acceleration * passed), s_[k], s_[k + 1]);
+  now.s =
+      std::clamp(s_[k] + passed * (rate_[k] + 0.5 * now.acceleration * passed), s_[k], s_[k + 1]);
   return now;
 }
 
@@ -235,7 +269,8 @@ Configuration PathMotion::at(double t_s) const {
 Configuration PathMotion::velocity_at(double t_s) const {
   if (times_s_.empty()) return Configuration::Zero(end_.size());
   const Instant now = instant(t_s);
-  return now.rate * BlendedPath::tangent(path_.pieces()[static_cast<std::size_t>(now.piece)], now.s);
+  return now.rate *
+         BlendedPath::tangent(path_.pieces()[static_cast<std::size_t>(now.piece)], now.s);
 }
 
 Configuration PathMotion::acceleration_at(double t_s) const {

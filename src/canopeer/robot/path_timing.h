@@ -9,20 +9,21 @@ namespace canopeer {
 
 struct PathTimingOptions {
   double max_deviation = 0.05;  ///< how far the path may pass a waypoint, Euclidean, rad (m)
-  int line_intervals = 32;      ///< of constant acceleration along the path, per straight piece
-  double arc_step_rad = 0.05;   ///< the same on arcs: what the path turns by in one
+  double arc_step_rad = 0.05;   ///< what the path turns by in one interval of constant
+                                ///< acceleration along an arc; lines need no grid
 };
 
 /// The fastest motion along a BlendedPath from standstill to standstill under joint velocity and
-/// acceleration limits, up to the grid the path is cut into. Reachability analysis in two passes
+/// acceleration limits, up to the grid that arcs are cut into. Reachability analysis in two passes
 /// (Pham & Pham, "A New Approach to Time-Optimal Path Parameterization Based on Reachability
 /// Analysis", IEEE T-RO 2018) over intervals of constant acceleration along the path. The limits
 /// are imposed on each interval with the ranges that the path's derivatives have in it, not at grid
-/// points: they hold at every instant, whatever rate the motion is sampled at. A path that is one
-/// straight line takes its closed form (StraightMotion), but for the grid.
+/// points: they hold at every instant, whatever rate the motion is sampled at. Straight pieces are
+/// timed in closed form, so a path that is one straight line takes the time of StraightMotion.
 class PathMotion {
  public:
-  /// At least one waypoint, of the limits' size.
+  /// At least one waypoint, of the limits' size. Never slower than stopping at every waypoint: the
+  /// path keeps its corners where that is faster on the whole.
   PathMotion(const std::vector<Configuration>& waypoints, const JointLimits& limits,
              const PathTimingOptions& options = {});
 
@@ -34,6 +35,7 @@ class PathMotion {
   [[nodiscard]] const BlendedPath& path() const { return path_; }
 
  private:
+  void time_path(const JointLimits& limits, const PathTimingOptions& options);
   struct Instant {  // place, speed and acceleration along the path
     int piece = 0;
     double s = 0.0;

@@ -101,8 +101,8 @@ Expected<void> RobotModel::assign_roles() {
 
   const int dof = static_cast<int>(setup_.arm_joints.size());
   if (dof < 1 || dof > kMaxArmJoints)
-    return fail("arm_joints: expected 1 to " + std::to_string(kMaxArmJoints) + " joints, found " +
-                std::to_string(dof));
+    return fail("arm_joints: expected at least 1 and at most " + std::to_string(kMaxArmJoints) +
+                " joints, found " + std::to_string(dof));
   limits_.lower.resize(dof);
   limits_.upper.resize(dof);
   limits_.velocity.resize(dof);

@@ -3,16 +3,15 @@
 #include <cstdint>
 #include <cstring>
 
-// Vectors are handed over between functions that are all inlined: no calling convention matters.
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 namespace canopeer {
 namespace {
 
 using Doubles = double __attribute__((vector_size(32)));
 using Bits = std::int64_t __attribute__((vector_size(32)));
 
-[[gnu::always_inline]] inline constexpr Doubles all(double value) { return Doubles{value, value, value, value}; }
+[[gnu::always_inline]] inline constexpr Doubles all(double value) {
+  return Doubles{value, value, value, value};
+}
 
 [[gnu::always_inline]] inline Bits bits_of(Doubles x) {
   Bits bits;
@@ -37,13 +36,12 @@ using Bits = std::int64_t __attribute__((vector_size(32)));
 }
 
 [[gnu::always_inline]] inline Doubles cosine_polynomial(Doubles z) {
-  const Doubles tail =
-      all(4.16666666666666019037e-02) +
-      z * (all(-1.38888888888741095749e-03) +
-           z * (all(2.48015872894767294178e-05) +
-                z * (all(-2.75573143513906633035e-07) +
-                     z * (all(2.08757232129817482790e-09) +
-                          z * all(-1.13596475577881948265e-11)))));
+  const Doubles tail = all(4.16666666666666019037e-02) +
+                       z * (all(-1.38888888888741095749e-03) +
+                            z * (all(2.48015872894767294178e-05) +
+                                 z * (all(-2.75573143513906633035e-07) +
+                                      z * (all(2.08757232129817482790e-09) +
+                                           z * all(-1.13596475577881948265e-11)))));
   const Doubles half = all(0.5) * z;
   const Doubles w = all(1.0) - half;
   return w + (((all(1.0) - w) - half) + z * z * tail);  // what 1 − z/2 rounds off is put back
@@ -56,8 +54,8 @@ using Bits = std::int64_t __attribute__((vector_size(32)));
   const Doubles magic = all(6755399441055744.0);
   const Doubles shifted = x * all(6.36619772367581382433e-01) + magic;
   const Doubles quadrant = shifted - magic;
-  const Doubles r = (x - quadrant * all(1.57079632673412561417e+00)) -
-                    quadrant * all(6.07710050650619224932e-11);
+  const Doubles r =
+      (x - quadrant * all(1.57079632673412561417e+00)) - quadrant * all(6.07710050650619224932e-11);
   const Doubles z = r * r;
   const Bits s = bits_of(sine_polynomial(r, z));
   const Bits c = bits_of(cosine_polynomial(z));

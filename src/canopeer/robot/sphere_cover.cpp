@@ -51,8 +51,8 @@ Sphere sphere_around(const std::vector<Vec3>& points) {
   return {centre, (farthest() - centre).norm()};
 }
 
-/// Along the longest edge slices as for a cylinder; across it pieces no longer than wide. Each piece
-/// is filled with points of a fine grid, and a sphere around those, widened by half a cell's
+/// Along the longest edge slices as for a cylinder; across it pieces no longer than wide. Each
+/// piece is filled with points of a fine grid, and a sphere around those, widened by half a cell's
 /// diagonal, holds it.
 std::vector<Sphere> cover_mesh(const CollisionShape& shape, double max_excess) {
   const Vec3 edges = shape.size_m;
@@ -80,12 +80,12 @@ std::vector<Sphere> cover_mesh(const CollisionShape& shape, double max_excess) {
       for (int z = 0; z < count.z(); ++z) {
         const Vec3 p = (Vec3(x, y, z) - (count.cast<double>() - Vec3::Ones()) / 2.0) * step;
         if (signed_distance(shape, p) > half_diagonal) continue;
-        const Eigen::Vector3i at = ((p.cwiseQuotient(edges).array() + 0.5) *
-                                    pieces.cast<double>().array())
-                                       .floor()
-                                       .cast<int>()
-                                       .max(0)
-                                       .min(pieces.array() - 1);
+        const Eigen::Vector3i at =
+            ((p.cwiseQuotient(edges).array() + 0.5) * pieces.cast<double>().array())
+                .floor()
+                .cast<int>()
+                .max(0)
+                .min(pieces.array() - 1);
         points[static_cast<std::size_t>((at.x() * pieces.y() + at.y()) * pieces.z() + at.z())]
             .push_back(p);
       }
@@ -109,7 +109,8 @@ Vec3 away_from(const CollisionShape& shape, const Vec3& p) {
       const double across = p.head<2>().norm();
       const double radial = across - shape.size_m.x();
       const double axial = std::abs(p.z()) - shape.size_m.z() / 2.0;
-      const Vec3 outwards = across > 0.0 ? Vec3(p.x() / across, p.y() / across, 0.0) : Vec3(Vec3::UnitX());
+      const Vec3 outwards =
+          across > 0.0 ? Vec3(p.x() / across, p.y() / across, 0.0) : Vec3(Vec3::UnitX());
       const Vec3 upwards = Vec3::UnitZ() * (p.z() < 0.0 ? -1.0 : 1.0);
       if (radial <= 0.0 || axial <= 0.0) return radial > axial ? outwards : upwards;
       return (radial * outwards + axial * upwards).normalized();
@@ -231,10 +232,9 @@ CoverQuality measure_cover(const std::vector<CollisionShape>& shapes,
         double distance = 1e300;
         for (std::size_t i = 0; i < shapes.size(); ++i)
           distance = std::min(distance, signed_distance(shapes[i], T_shape_link[i] * p));
-        const bool covered =
-            std::any_of(spheres.begin(), spheres.end(), [&](const Sphere& sphere) {
-              return (p - sphere.centre).squaredNorm() <= sphere.radius_m * sphere.radius_m;
-            });
+        const bool covered = std::any_of(spheres.begin(), spheres.end(), [&](const Sphere& sphere) {
+          return (p - sphere.centre).squaredNorm() <= sphere.radius_m * sphere.radius_m;
+        });
         if (distance <= 0.0) quality.solid_m3 += cell;
         if (!covered) continue;
         quality.spheres_m3 += cell;

@@ -111,8 +111,8 @@ int SphericalWristForm::branches(const Pose& T_base_camera, double last_referenc
   return count;
 }
 
-// R_wrist = exp(z4 q4) exp(z5 q5) exp(z6 q6): its image of z6 gives q4 and q5, its transpose's image
-// of z4 gives q6.
+// R_wrist = exp(z4 q4) exp(z5 q5) exp(z6 q6): its image of z6 gives q4 and q5, its transpose's
+// image of z4 gives q6.
 int SphericalWristForm::wrist(const Eigen::Matrix3d& R_wrist, const SixAngles& arm,
                               double last_reference, std::array<SixAngles, kMaxBranches>& out,
                               int count) const {

@@ -69,8 +69,7 @@ Expected<std::unique_ptr<SixJointForm>> UrForm::make(const ArmGeometry& geometry
   const Vec3 o3 = in_plane(axes[3].point);
   ik.a2_ = (o2 - o1).norm();
   ik.a3_ = (o3 - o2).norm();
-  if (ik.a2_ < 1e-3 || ik.a3_ < 1e-3)
-    return fail("axes 2, 3 and 4 are not apart");
+  if (ik.a2_ < 1e-3 || ik.a3_ < 1e-3) return fail("axes 2, 3 and 4 are not apart");
   ik.d4_ = z1.dot(o4 - o3);
   ik.d5_ = z4.dot(o5 - o4);
 

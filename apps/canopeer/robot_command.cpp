@@ -1,0 +1,171 @@
+#include <cstdio>
+#include <filesystem>
+
+#include "canopeer/base/atomic_file.h"
+#include "canopeer/config/robot_file.h"
+#include "canopeer/render/overview.h"
+#include "canopeer/robot/collision_checker.h"
+#include "canopeer/robot/exact_checker.h"
+#include "canopeer/robot/robot_survey.h"
+#include "canopeer/sensing/png.h"
+#include "commands.h"
+#include "exit_status.h"
+#include "robot_picture.h"
+
+namespace canopeer::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kSeed = 1;
+
+/// Counts what is wrong while it is printed.
+class Findings {
+ public:
+  void wrong(const std::string& what) {
+    ++count_;
+    std::printf("  wrong: %s\n", what.c_str());
+  }
+  [[nodiscard]] int count() const { return count_; }
+
+ private:
+  int count_ = 0;
+};
+
+void print_joints(const RobotModel& robot, const ArmIk& ik) {
+  std::printf("robot %s: %zu links, %d arm joints, inverse kinematics %s",
+              robot.description().name.c_str(), robot.links().size(), robot.dof(),
+              std::string(ik_kind_name(ik.kind())).c_str());
+  if (ik.sampled_joints() > 0) std::printf(", first %d joints sampled", ik.sampled_joints());
+  std::printf("\n");
+  for (const std::string& notice : robot.description().notices)
+    std::printf("  notice: %s\n", notice.c_str());
+  for (int i = 0; i < robot.dof(); ++i) {
+    const bool slide = robot.arm_joint_type(i) == JointType::kPrismatic;
+    std::printf("  %-24s %8.3f … %7.3f %s, %.2f %s/s, %.2f %s/s²\n",
+                robot.setup().arm_joints[static_cast<std::size_t>(i)].c_str(),
+                robot.limits().lower[i], robot.limits().upper[i], slide ? "m" : "rad",
+                robot.limits().velocity[i], slide ? "m" : "rad", robot.limits().acceleration[i],
+                slide ? "m" : "rad");
+  }
+}
+
+void check_homes(const RobotModel& robot, Findings& findings) {
+  std::printf("home states\n");
+  const ExactChecker exact(robot);
+  for (int side = 1; side <= robot.sides(); ++side) {
+    const std::string name = "side_" + std::to_string(side);
+    if (!robot.has_home(name)) findings.wrong("missions need a home state '" + name + "'");
+  }
+  for (const auto& [name, q] : robot.setup().home) {
+    for (const double lift : {robot.lift_axis().lower, robot.lift_axis().upper}) {
+      const TrolleyState trolley{robot.travel_axis().lower, lift};
+      const ContactReport contacts = exact.check(q, trolley);
+      char where[64];
+      std::snprintf(where, sizeof where, " at lift %.2f m", lift);
+      if (contacts.any()) {
+        findings.wrong("home state '" + name + "'" + where + ": " + contacts.pair + " touch");
+      } else if (!CollisionChecker(robot, trolley).state_free(q)) {
+        findings.wrong("home state '" + name + "'" + where +
+                       " is free, but nearer to contact than the planner allows");
+      } else {
+        std::printf("  %s%s: free\n", name.c_str(), where);
+      }
+    }
+  }
+}
+
+void check_reach(const RobotModel& robot, const ArmIk& ik, int views, Findings& findings) {
+  std::printf("reach (%d random views a side, target in the sampling region 0.3-0.6 m away)\n",
+              views);
+  if (robot.sides() == 0) findings.wrong("no sides: a mission needs workspace and sampling region");
+  for (int side = 1; side <= robot.sides(); ++side) {
+    const ReachSurvey survey = survey_reach(robot, ik, side, views, kSeed);
+    if (survey.views == 0) {
+      findings.wrong("side " + std::to_string(side) +
+                     ": no place in the workspace is 0.3-0.6 m from the sampling region");
+      continue;
+    }
+    std::printf("  side %d: %.1f %% reached, %.1f %% without touching itself or the trolley\n",
+                side, 100.0 * survey.reached / survey.views, 100.0 * survey.free / survey.views);
+    const Box& box = robot.workspace(side);
+    int empty = 0;
+    for (std::size_t part = 0; part < survey.part_views.size(); ++part) {
+      if (survey.part_views[part] == 0 || survey.part_free[part] > 0) continue;
+      ++empty;
+      const Vec3 index(static_cast<double>(part % 3), static_cast<double>(part / 3 % 3),
+                       static_cast<double>(part / 9));
+      const Vec3 low = box.min() + index.cwiseProduct(box.sizes()) / 3.0;
+      const Vec3 high = low + box.sizes() / 3.0;
+      std::printf("    not one view from x %.2f … %.2f, y %.2f … %.2f, z %.2f … %.2f\n", low.x(),
+                  high.x(), low.y(), high.y(), low.z(), high.z());
+    }
+    if (survey.free == 0)
+      findings.wrong("side " + std::to_string(side) + ": no view of it can be taken");
+    if (empty > 0) std::printf("    %d of 27 parts of the workspace are of no use\n", empty);
+  }
+}
+
+std::vector<LinkPairSurvey> check_pairs(const RobotModel& robot, int states, Findings& findings) {
+  const auto pairs = survey_link_pairs(robot, states, kSeed);
+  int checked = 0;
+  for (const LinkPairSurvey& pair : pairs) checked += pair.disabled ? 0 : 1;
+  std::printf("link pairs (%d random states): %zu, of which %d are checked\n", states, pairs.size(),
+              checked);
+  for (const LinkPairSurvey& pair : pairs) {
+    const std::string names = pair.link_a + " / " + pair.link_b;
+    if (!pair.disabled && pair.always())
+      findings.wrong(names + " always touch: disable the pair in the SRDF, or mend a shape");
+    else if (!pair.disabled && pair.adjacent && !pair.never())
+      findings.wrong(names + " are joined by a joint and touch: disable the pair in the SRDF");
+    else if (!pair.disabled && pair.never())
+      std::printf("  never touch, could be disabled: %s\n", names.c_str());
+    else if (pair.disabled && !pair.adjacent && !pair.never() && !pair.always())
+      std::printf("  disabled, though they touch in %.1f %% of the states: %s\n",
+                  100.0 * pair.touching / pair.states, names.c_str());
+  }
+  return pairs;
+}
+
+void print_covers(const RobotModel& robot) {
+  std::printf("spheres for collision checks\n");
+  for (const CoverSurvey& cover : survey_covers(robot, CollisionOptions().sphere_excess_m))
+    std::printf("  %-24s %3d spheres, volume +%.0f %%, sticking out by up to %.1f mm\n",
+                cover.link.c_str(), cover.spheres, 100.0 * cover.quality.overhead(),
+                1e3 * cover.quality.excess_m);
+}
+
+}  // namespace
+
+/// Reads a robot, says what it is, what is wrong with it and where, and writes pictures and an
+/// SRDF.
+void robot_check(const RobotCheckArguments& arguments) {
+  const RobotModel robot = value_or_stop(load_robot(arguments.robot), kBadInput);
+  const ArmIk ik = value_or_stop(ArmIk::make(robot), kBadInput);
+  Findings findings;
+  print_joints(robot, ik);
+  check_homes(robot, findings);
+  check_reach(robot, ik, arguments.views, findings);
+  const auto pairs = check_pairs(robot, arguments.states, findings);
+  print_covers(robot);
+
+  const fs::path out = arguments.out.empty() ? fs::path("out") / "robot" : fs::path(arguments.out);
+  std::error_code code;
+  fs::create_directories(out, code);
+  if (code) stop_with(kFailed, {out.string() + ": cannot make the directory: " + code.message()});
+  const Configuration q = robot.setup().home.empty()
+                              ? Configuration((robot.limits().lower + robot.limits().upper) / 2.0)
+                              : robot.setup().home.begin()->second;
+  for (const bool spheres : {false, true})
+    value_or_stop(write_png(out / (spheres ? "spheres.png" : "robot.png"),
+                            render_overview(robot_scene(robot, q, 1, spheres), 1280, 960)),
+                  kFailed);
+  value_or_stop(write_file(out / "suggested.srdf", srdf_of(robot.description().name, pairs)),
+                kFailed);
+  std::printf("wrote %s, %s, %s\n", (out / "robot.png").c_str(), (out / "spheres.png").c_str(),
+              (out / "suggested.srdf").c_str());
+  if (findings.count() > 0)
+    stop_with(kFailed, {std::to_string(findings.count()) + " thing(s) wrong with this robot"});
+}
+
+}  // namespace canopeer::app
