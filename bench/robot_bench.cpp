@@ -173,13 +173,13 @@ void kdl_newton(benchmark::State& state, const Glasshouse& world) {
 }
 
 void kdl_lma_ur5e(benchmark::State& state) { kdl_lma(state, ur5e()); }
-BENCHMARK(kdl_lma_ur5e);
+BENCHMARK(kdl_lma_ur5e)->Iterations(kSights);
 void kdl_newton_ur5e(benchmark::State& state) { kdl_newton(state, ur5e()); }
-BENCHMARK(kdl_newton_ur5e);
+BENCHMARK(kdl_newton_ur5e)->Iterations(kSights / 4);
 void kdl_lma_rail(benchmark::State& state) { kdl_lma(state, rail()); }
-BENCHMARK(kdl_lma_rail);
+BENCHMARK(kdl_lma_rail)->Iterations(kSights);
 void kdl_newton_rail(benchmark::State& state) { kdl_newton(state, rail()); }
-BENCHMARK(kdl_newton_rail);
+BENCHMARK(kdl_newton_rail)->Iterations(kSights / 4);
 
 /// Valid view states: `check` is timed on each alone.
 template <typename Check>

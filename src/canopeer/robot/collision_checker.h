@@ -69,10 +69,11 @@ class CollisionChecker {
     Sphere bound;                 // around all of them
     std::vector<double> reach_m;  // per arm joint that moves it: no point is farther from its axis
   };
-  struct Obstacle {  // a shape of the robot, trolley included, that arm links can run into
+  struct Obstacle {   // a shape of the robot, trolley included, that arm links can run into
     int moving = -1;  // its link's place in RobotModel::moving_links(); −1: it rests
     CollisionShape shape;
-    Vec3 centre = Vec3::Zero();  // of a sphere around the shape: in its link, or in world if it rests
+    Vec3 centre =
+        Vec3::Zero();  // of a sphere around the shape: in its link, or in world if it rests
     double radius_m = 0.0;
     Pose T_shape_world = Pose::Identity();  // of one that rests
     std::vector<int> arm_links;             // indices of those that must not touch it

@@ -54,9 +54,7 @@ class RobotModel {
   [[nodiscard]] static Expected<RobotModel> make(RobotDescription description, RobotSetup setup);
 
   [[nodiscard]] int dof() const { return static_cast<int>(limits_.lower.size()); }
-  [[nodiscard]] JointType arm_joint_type(int joint) const {
-    return nodes_[arm_nodes_[joint]].type;
-  }
+  [[nodiscard]] JointType arm_joint_type(int joint) const { return nodes_[arm_nodes_[joint]].type; }
   [[nodiscard]] const JointLimits& limits() const { return limits_; }
   [[nodiscard]] bool within_limits(const Configuration& q) const;
   [[nodiscard]] const RobotSetup& setup() const { return setup_; }
