@@ -82,6 +82,52 @@ TEST(DistanceField, ForgetsWhatIsNoLongerOccupiedAndKnowsNothingOutside) {
   EXPECT_EQ(field.distance(Vec3(0.105, 0.105, 0.105)), 0.1F);
 }
 
+// Unknown space and ROI by the definition, in a map of which parts were never seen.
+TEST(DistanceField, MeasuresToUnknownOrRoiVoxelsWhenAsked) {
+  const Box world(Vec3(0.3, -0.2, -0.15), Vec3(0.7, 0.2, 0.15));
+  const double resolution = 0.02;
+  VoxelMapOptions options;
+  options.resolution_m = resolution;
+  VoxelMap map(options);
+  DistanceField to_unknown({world, 0.1, DistanceTo::occupied_or_unknown}, resolution);
+  DistanceField to_roi({world, 0.1, DistanceTo::roi}, resolution);
+  EXPECT_EQ(to_unknown.distance(Vec3(0.5, 0.0, 0.0)), 0.0F);
+  EXPECT_EQ(to_roi.distance(Vec3(0.5, 0.0, 0.0)), 0.1F);
+  const BallScene scene = BallScene::random(3, 60);
+  Rng rng(3, "cameras");
+  for (int frame = 0; frame < 2; ++frame) {
+    const auto view =
+        scene.render(BallScene::random_camera(rng), CameraIntrinsics::from_fov(160, 120, 1.396));
+    const auto changed = fuse(map, view.frame, view.roi).changed;
+    to_unknown.update(map, changed);
+    to_roi.update(map, changed);
+    DistanceField rebuilt({world, 0.1, DistanceTo::occupied_or_unknown}, resolution);
+    rebuilt.rebuild(map);
+    int positive = 0;
+    for (int i = 0; i < 800; ++i) {
+      const Vec3 p(rng.uniform(0.3, 0.7), rng.uniform(-0.2, 0.2), rng.uniform(-0.15, 0.15));
+      const VoxelIndex at = voxel_at(p, resolution);
+      double unknown = 0.1, roi = 0.1;
+      for (int n = 0; n < 13 * 13 * 13; ++n) {
+        const VoxelIndex v = at + VoxelIndex(n % 13 - 6, n / 13 % 13 - 6, n / 169 - 6);
+        if (map.occupancy(v) != Occupancy::free) {
+          unknown = std::min(unknown, distance_to_cube(p, v, resolution));
+        }
+        if (map.is_roi(v)) roi = std::min(roi, distance_to_cube(p, v, resolution));
+      }
+      const double diagonal = resolution * std::sqrt(3.0);
+      const auto bound = static_cast<double>(to_unknown.distance(p));
+      ASSERT_LE(bound, unknown + 1e-6);
+      ASSERT_GE(bound, unknown - diagonal - 1e-6);
+      ASSERT_EQ(to_unknown.distance(p), rebuilt.distance(p));
+      ASSERT_LE(static_cast<double>(to_roi.distance(p)), roi + 1e-6);
+      ASSERT_GE(static_cast<double>(to_roi.distance(p)), roi - diagonal - 1e-6);
+      positive += bound > 0.0;
+    }
+    EXPECT_GT(positive, 0);
+  }
+}
+
 TEST(DistanceField, SeesObstaclesJustOutsideItsBox) {
   DistanceField field({Box(Vec3(0, 0, 0), Vec3(0.3, 0.3, 0.3)), 0.1}, 0.01);
   field.rebuild(map_of({}, {{-3, 5, 5}, {64, 20, 20}}));

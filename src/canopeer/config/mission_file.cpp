@@ -95,6 +95,7 @@ void read_map(YamlMap map, MissionOptions& mission) {
   if (auto ok = o.validate(); !ok) map.complain("resolution_m", ok.error().message);
   mission.fusion.max_range_m = map.number("max_range_m", mission.fusion.max_range_m, {0.05, 100.0});
   mission.fusion.clear_no_return = map.boolean("clear_no_return", mission.fusion.clear_no_return);
+  mission.mask_robot = map.boolean("mask_robot", mission.mask_robot);
 }
 
 void read_view_sampling(YamlMap views, GraphBuilderOptions& o) {

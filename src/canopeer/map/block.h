@@ -72,20 +72,10 @@ struct VoxelMask {
     for (const std::uint64_t slice : slices) product &= slice;
     return product == ~std::uint64_t{0};
   }
-  // Bits are summed in bytes over all slices: baseline x86-64 has no popcount instruction.
   int count() const {
-    constexpr std::uint64_t kPairs = 0x5555555555555555;
-    constexpr std::uint64_t kNibbles = 0x3333333333333333;
-    constexpr std::uint64_t kBytes = 0x0F0F0F0F0F0F0F0F;
-    constexpr std::uint64_t kWords = 0x00FF00FF00FF00FF;
-    std::uint64_t bytes = 0;  // each at most 8 · 8
-    for (std::uint64_t bits : slices) {
-      bits -= bits >> 1 & kPairs;
-      bits = (bits & kNibbles) + (bits >> 2 & kNibbles);
-      bytes += (bits + (bits >> 4)) & kBytes;
-    }
-    const std::uint64_t words = (bytes & kWords) + (bytes >> 8 & kWords);
-    return static_cast<int>(words * 0x0001000100010001U >> 48);
+    int sum = 0;
+    for (const std::uint64_t slice : slices) sum += std::popcount(slice);
+    return sum;
   }
   VoxelMask& operator|=(const VoxelMask& other) {
     for (std::size_t z = 0; z < kBlockSide; ++z) slices[z] |= other.slices[z];

@@ -2,42 +2,36 @@
 
 #include <utility>
 
-#include "canopeer/base/check.h"
-
 namespace canopeer {
 
-std::uint32_t BlockDirectory::find_or_add(BlockKey key) {
-  std::uint32_t& slot = find_or_add_chunk(key & kChunkMask).slots[place_in_chunk(key)];
-  if (slot == kFree) slot = static_cast<std::uint32_t>(size_++);
-  return slot;
+BlockDirectory::Entries BlockDirectory::empty_entries(std::size_t count) {
+  Entries entries;
+  entries.resize(count, Entry{});
+  return entries;
 }
 
-std::uint8_t& BlockDirectory::summary(BlockKey key) {
-  auto* found = const_cast<Chunk*>(chunk(key));
-  CANOPEER_CHECK(found != nullptr, "a summary is of a block that is there");
-  return found->summaries[place_in_chunk(key)];
-}
-
-BlockDirectory::Chunk& BlockDirectory::find_or_add_chunk(BlockKey chunk_key) {
-  std::size_t i = home(chunk_key);
-  for (; entries_[i].chunk != kFree; i = (i + 1) & mask_) {
-    if (entries_[i].key == chunk_key) return chunks_[entries_[i].chunk];
-  }
-  entries_[i] = {chunk_key, static_cast<std::uint32_t>(chunks_.size())};
-  chunks_.emplace_back();
+BlockDirectory::Chunk& BlockDirectory::chunk_to_write(BlockKey key) {
+  const BlockKey chunk_key = key & kChunkMask;
+  const std::uint32_t found = find_chunk(chunk_key);
+  if (found != kFree) return chunks_.own(found);
+  const auto added = static_cast<std::uint32_t>(chunks_.push_back(Chunk{}));
+  insert({chunk_key, added});
   if (2 * chunks_.size() > entries_.size()) grow();
-  return chunks_.back();
+  return chunks_.own(added);
+}
+
+void BlockDirectory::insert(const Entry& entry) {
+  std::size_t i = home(entry.key);
+  while (entries_[i].chunk != kFree) i = (i + 1) & mask_;
+  entries_.own(i) = entry;
 }
 
 void BlockDirectory::grow() {
-  const std::vector<Entry> old = std::exchange(entries_, std::vector<Entry>(2 * entries_.size()));
+  const Entries old = std::exchange(entries_, empty_entries(2 * entries_.size()));
   mask_ = entries_.size() - 1;
   --shift_;
-  for (const Entry& entry : old) {
-    if (entry.chunk == kFree) continue;
-    std::size_t i = home(entry.key);
-    while (entries_[i].chunk != kFree) i = (i + 1) & mask_;
-    entries_[i] = entry;
+  for (std::size_t i = 0; i < old.size(); ++i) {
+    if (old[i].chunk != kFree) insert(old[i]);
   }
 }
 

@@ -7,45 +7,74 @@
 namespace canopeer {
 namespace {
 
-DepthPyramid::Range hull(const DepthPyramid::Range& a, const DepthPyramid::Range& b) {
-  return {std::min(a.min, b.min), std::max(a.max, b.max)};
+struct Level {
+  int width, height;
+  std::size_t offset;
+};
+
+std::vector<Level> levels_of(int width, int height) {
+  std::vector<Level> levels = {{width, height, 0}};  // the image; it is not among the cells
+  std::size_t cells = 0;
+  do {
+    const Level below = levels.back();
+    const Level level = {(below.width + 1) / 2, (below.height + 1) / 2, cells};
+    cells += static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height);
+    levels.push_back(level);
+  } while (levels.back().width > 1 || levels.back().height > 1);
+  return levels;
+}
+
+using Halve = void (*)(const float*, const float*, std::size_t, float*);
+
+// One row of cells from two of the level below; `width` of those, an odd one out pairs with itself.
+void halve_rows(Halve halve, const float* upper, const float* lower, int width, float* out) {
+  const auto pairs = static_cast<std::size_t>(width / 2);
+  halve(upper, lower, pairs, out);
+  if (width % 2 == 0) return;
+  const float last_upper[2] = {upper[width - 1], upper[width - 1]};
+  const float last_lower[2] = {lower[width - 1], lower[width - 1]};
+  halve(last_upper, last_lower, 1, out + pairs);
 }
 
 }  // namespace
 
-DepthPyramid::DepthPyramid(const DepthImage& depth) {
+DepthPyramid::DepthPyramid(const DepthImage& depth, const CameraIntrinsics& k,
+                           const FrameKernels& kernels) {
   CANOPEER_CHECK(!depth.empty(), "a depth pyramid needs an image");
-  Image<Range> base(depth.width(), depth.height());
-  std::transform(depth.pixels().begin(), depth.pixels().end(), base.pixels().begin(), [](float d) {
-    return Range{d, d};
-  });
-  levels_.push_back(std::move(base));
-  while (levels_.back().width() > 1 || levels_.back().height() > 1) {
-    const Image<Range>& below = levels_.back();
-    Image<Range> level((below.width() + 1) / 2, (below.height() + 1) / 2);
-    for (int v = 0; v < level.height(); ++v) {
-      const int v_next = std::min(2 * v + 1, below.height() - 1);
-      for (int u = 0; u < level.width(); ++u) {
-        const int u_next = std::min(2 * u + 1, below.width() - 1);
-        level.at(u, v) = hull(hull(below.at(2 * u, 2 * v), below.at(u_next, 2 * v)),
-                              hull(below.at(2 * u, v_next), below.at(u_next, v_next)));
-      }
+  const std::vector<Level> levels = levels_of(depth.width(), depth.height());
+  CANOPEER_CHECK(levels.size() <= FlatPyramid::kMaxLevels,
+                 "an image of at most 2^15 pixels a side");
+  const Level& last = levels.back();
+  min_.resize(last.offset + 1);
+  max_.resize(last.offset + 1);
+  for (std::size_t l = 1; l < levels.size(); ++l) {
+    const Level& below = levels[l - 1];
+    const Level& level = levels[l];
+    const float* below_min = l == 1 ? depth.pixels().data() : &min_[below.offset];
+    const float* below_max = l == 1 ? depth.pixels().data() : &max_[below.offset];
+    const auto stride = static_cast<std::size_t>(below.width);
+    for (int v = 0; v < level.height; ++v) {
+      const auto upper = static_cast<std::size_t>(2 * v) * stride;
+      const auto lower = static_cast<std::size_t>(std::min(2 * v + 1, below.height - 1)) * stride;
+      const std::size_t out =
+          level.offset + static_cast<std::size_t>(v) * static_cast<std::size_t>(level.width);
+      halve_rows(kernels.halve_min, below_min + upper, below_min + lower, below.width, &min_[out]);
+      halve_rows(kernels.halve_max, below_max + upper, below_max + lower, below.width, &max_[out]);
     }
-    levels_.push_back(std::move(level));
+    flat_.offset[l] = static_cast<std::int32_t>(level.offset);
+    flat_.cells_wide[l] = level.width;
   }
-}
-
-DepthPyramid::Range DepthPyramid::range(int u0, int v0, int u1, int v1) const {
-  // Fine enough that the cells jut out little, coarse enough that they are at most 5 × 5.
-  constexpr int kCells = 4;
-  std::size_t level = 0;
-  while (std::max(u1 - u0, v1 - v0) >> level >= kCells && level + 1 < levels_.size()) ++level;
-  const Image<Range>& cells = levels_[level];
-  Range range = cells.at(u0 >> level, v0 >> level);
-  for (int v = v0 >> level; v <= v1 >> level; ++v) {
-    for (int u = u0 >> level; u <= u1 >> level; ++u) range = hull(range, cells.at(u, v));
-  }
-  return range;
+  flat_.width = depth.width();
+  flat_.height = depth.height();
+  flat_.fx = static_cast<float>(k.fx);
+  flat_.fy = static_cast<float>(k.fy);
+  flat_.cx = static_cast<float>(k.cx);
+  flat_.cy = static_cast<float>(k.cy);
+  flat_.depth = depth.pixels().data();
+  flat_.min = min_.data();
+  flat_.max = max_.data();
+  flat_.top = static_cast<int>(levels.size()) - 1;
+  flat_.largest = max_.back();
 }
 
 }  // namespace canopeer

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "canopeer/map/frame_kernels.h"
+#include "canopeer/sensing/camera_intrinsics.h"
 #include "canopeer/sensing/image.h"
 
 namespace canopeer {
@@ -10,22 +12,19 @@ namespace canopeer {
 /// maximum of 2 × 2 cells of the one below.
 class DepthPyramid {
  public:
-  struct Range {
-    float min;
-    float max;
-  };
+  /// `depth` must have the size `k` says, at least one pixel and at most 2^15 on a side, hold no
+  /// NaN, and outlive the pyramid.
+  DepthPyramid(const DepthImage& depth, const CameraIntrinsics& k, const FrameKernels& kernels);
+  DepthPyramid(const DepthPyramid&) = delete;
+  DepthPyramid& operator=(const DepthPyramid&) = delete;
 
-  /// `depth` must not be empty nor hold NaN.
-  explicit DepthPyramid(const DepthImage& depth);
-
-  /// Bounds on the depths of the pixels u0 … u1, v0 … v1 (inclusive, within the image): never
-  /// tighter than the truth, equal to it for rectangles of a few pixels.
-  [[nodiscard]] Range range(int u0, int v0, int u1, int v1) const;
-  /// The largest depth of the image.
-  [[nodiscard]] float max() const { return levels_.back().at(0, 0).max; }
+  /// As the kernels want it; points into the pyramid and the image.
+  [[nodiscard]] const FlatPyramid& flat() const { return flat_; }
 
  private:
-  std::vector<Image<Range>> levels_;
+  FlatPyramid flat_;
+  std::vector<float> min_;
+  std::vector<float> max_;
 };
 
 }  // namespace canopeer

@@ -19,7 +19,10 @@ int floor_div(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
 }  // namespace
 
 DistanceField::DistanceField(const DistanceFieldOptions& options, double resolution_m)
-    : world_(options.world), resolution_m_(resolution_m), truncation_m_(options.truncation_m) {
+    : world_(options.world),
+      resolution_m_(resolution_m),
+      truncation_m_(options.truncation_m),
+      to_(options.to) {
   CANOPEER_CHECK(!world_.isEmpty() && world_.sizes().allFinite(),
                  "a distance field needs a finite box");
   reach_ = static_cast<int>(std::ceil(truncation_m_ / resolution_m_ - 1e-9));
@@ -34,11 +37,26 @@ DistanceField::DistanceField(const DistanceFieldOptions& options, double resolut
     return static_cast<std::size_t>(size.x()) * static_cast<std::size_t>(size.y()) *
            static_cast<std::size_t>(size.z());
   };
-  occupied_.resize(volume(grid_size_));
+  occupied_.resize(volume(grid_size_), obstacles(nullptr));
   distance2_.resize(volume(tiles_));
   for (int d2 = 0; d2 <= reach_ * reach_; ++d2) {
     root_m_.push_back(static_cast<float>(std::min(std::sqrt(d2) * resolution_m_, truncation_m_)));
   }
+  // Nothing is known yet, and that may be what distances are to.
+  if (to_ == DistanceTo::occupied_or_unknown) {
+    compute(std::vector<std::uint8_t>(distance2_.size(), 1));
+  }
+}
+
+VoxelMask DistanceField::obstacles(const BlockMasks* block) const {
+  const bool to_unknown = to_ == DistanceTo::occupied_or_unknown;
+  if (block == nullptr) return to_unknown ? VoxelMask::all() : VoxelMask{};
+  if (to_ == DistanceTo::roi) return block->roi;
+  if (!to_unknown) return block->occupied;
+  VoxelMask mask = VoxelMask::all();
+  mask -= block->observed;
+  mask |= block->occupied;
+  return mask;
 }
 
 std::size_t DistanceField::tile_number(const VoxelIndex& tile) const {
@@ -64,8 +82,7 @@ bool DistanceField::take_over(const VoxelMap& map, BlockKey key) {
   if ((cell.array() < 0).any() || (cell.array() >= grid_size_.array()).any()) return false;
   VoxelMask& own = occupied_[static_cast<std::size_t>(
       (cell.z() * grid_size_.y() + cell.y()) * grid_size_.x() + cell.x())];
-  const BlockMasks* block = map.block(key);
-  const VoxelMask now = block != nullptr ? block->occupied : VoxelMask{};
+  const VoxelMask now = obstacles(map.block(key));
   if (own == now) return false;
   own = now;
   return true;
@@ -116,7 +133,7 @@ void DistanceField::update(const VoxelMap& map, const std::vector<BlockKey>& cha
 
 void DistanceField::rebuild(const VoxelMap& map) {
   CANOPEER_CHECK(map.resolution_m() == resolution_m_, "map and field differ in resolution");
-  std::fill(occupied_.begin(), occupied_.end(), VoxelMask{});
+  std::fill(occupied_.begin(), occupied_.end(), obstacles(nullptr));
   for (const BlockKey key : map.block_keys()) take_over(map, key);
   compute(std::vector<std::uint8_t>(distance2_.size(), 1));
 }

@@ -7,12 +7,21 @@
 
 namespace canopeer {
 
+/// What distances are measured to.
+enum class DistanceTo {
+  occupied,
+  occupied_or_unknown,  ///< for motions that may not enter what was never seen
+  roi,
+};
+
 struct DistanceFieldOptions {
   Box world;                   ///< where distances are wanted; not empty
   double truncation_m = 0.15;  ///< larger distances are reported as this; at most 120 voxels
+  DistanceTo to = DistanceTo::occupied;
 };
 
-/// Truncated distance to the nearest occupied voxel, for the many collision checks of planning.
+/// Truncated distance to the nearest occupied voxel (or what DistanceTo says), for the many
+/// collision checks of planning.
 /// Exact squared distances in voxels by separable min-plus passes (Felzenszwalb & Huttenlocher
 /// 2012, here truncated) over tiles of 32³ voxels; only tiles within reach of a change are
 /// computed again. Const calls are thread-safe; a copy is a snapshot.
@@ -36,6 +45,7 @@ class DistanceField {
  private:
   using Tile = std::vector<std::int16_t>;  // empty: nothing within reach
 
+  [[nodiscard]] VoxelMask obstacles(const BlockMasks* block) const;
   [[nodiscard]] std::size_t tile_number(const VoxelIndex& tile) const;
   /// Copies the block's mask; false: nothing new, or out of reach.
   bool take_over(const VoxelMap& map, BlockKey key);
@@ -45,6 +55,7 @@ class DistanceField {
   Box world_;
   double resolution_m_;
   double truncation_m_;
+  DistanceTo to_;
   int reach_;                        // truncation in voxels
   int halo_;                         // blocks beside a tile that are within its reach
   VoxelIndex first_block_;           // of tile (0, 0, 0)

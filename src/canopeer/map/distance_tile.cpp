@@ -3,49 +3,85 @@
 #include <algorithm>
 #include <cstring>
 
+#include "canopeer/map/kernel_targets.h"
+
 namespace canopeer {
 namespace {
 
 constexpr std::size_t kSide = kTileSide;
 
-std::int16_t gap2(int voxels_apart) {
+CANOPEER_KERNEL_BODY std::int16_t gap2(int voxels_apart) {
   const int gap = std::max(0, std::abs(voxels_apart) - 1);
   return static_cast<std::int16_t>(gap * gap);
 }
 
-// best[x] = min(best[x], from[x] + step) along one row of the tile.
-inline void relax(std::int16_t* best, const std::int16_t* from, std::int16_t step) {
-  for (std::size_t x = 0; x < kSide; ++x) {
-    const auto candidate = static_cast<std::int16_t>(from[x] + step);
-    best[x] = candidate < best[x] ? candidate : best[x];
-  }
-}
+// A row of the tile in registers: one, two or four of them.
+using TileRow = std::int16_t __attribute__((vector_size(kSide * sizeof(std::int16_t))));
+
+// best = min(best, row at `from` + step).
+#define CANOPEER_RELAX(best, from, step)               \
+  do {                                                 \
+    TileRow candidate;                                 \
+    std::memcpy(&candidate, (from), sizeof candidate); \
+    candidate += static_cast<std::int16_t>(step);      \
+    (best) = candidate < (best) ? candidate : (best);  \
+  } while (false)
 
 // out[j] = min over |k| ≤ reach of rows[(j + k) · stride] + gap²(k), for `count` rows that are
 // `stride` rows apart; rows without a mark hold nothing nearer than `far`.
-__attribute__((target_clones("avx2", "default"))) void relax_rows(
-    const std::int16_t* rows, const std::uint8_t* used, std::size_t stride, int pad, int reach,
-    std::int16_t far, std::int16_t* out, std::uint8_t* out_used, std::size_t out_stride) {
+CANOPEER_KERNEL_BODY void relax_rows_body(const std::int16_t* rows, const std::uint8_t* used,
+                                          std::size_t stride, int pad, int reach, std::int16_t far,
+                                          std::int16_t* out, std::uint8_t* out_used,
+                                          std::size_t out_stride) {
   for (std::size_t j = 0; j < kSide; ++j) {
-    std::int16_t* best = out + j * out_stride * kSide;
-    std::fill_n(best, kSide, far);
+    TileRow best = TileRow{} + far;
     std::uint8_t any = 0;
     for (int k = -reach; k <= reach; ++k) {
       const std::size_t row = (j + static_cast<std::size_t>(pad + k)) * stride;
       if (used[row] == 0) continue;
       any = 1;
-      relax(best, rows + row * kSide, gap2(k));
+      CANOPEER_RELAX(best, rows + row * kSide, gap2(k));
     }
+    std::memcpy(out + j * out_stride * kSide, &best, sizeof best);
     if (out_used != nullptr) out_used[j * out_stride] = any;
   }
 }
 
-__attribute__((target_clones("avx2", "default"))) void relax_row(const std::int16_t* padded,
-                                                                 int pad, int reach,
-                                                                 std::int16_t far,
-                                                                 std::int16_t* out) {
-  std::fill_n(out, kSide, far);
-  for (int k = -reach; k <= reach; ++k) relax(out, padded + (pad + k), gap2(k));
+CANOPEER_KERNEL_BODY void relax_row_body(const std::int16_t* padded, int pad, int reach,
+                                         std::int16_t far, std::int16_t* out) {
+  TileRow best = TileRow{} + far;
+  for (int k = -reach; k <= reach; ++k) CANOPEER_RELAX(best, padded + (pad + k), gap2(k));
+  std::memcpy(out, &best, sizeof best);
+}
+
+struct TileKernels {
+  void (*relax_rows)(const std::int16_t* rows, const std::uint8_t* used, std::size_t stride,
+                     int pad, int reach, std::int16_t far, std::int16_t* out,
+                     std::uint8_t* out_used, std::size_t out_stride);
+  void (*relax_row)(const std::int16_t* padded, int pad, int reach, std::int16_t far,
+                    std::int16_t* out);
+};
+
+#define CANOPEER_TILE_KERNELS(NAME, TARGET)                                                       \
+  TARGET void relax_rows_##NAME(                                                                  \
+      const std::int16_t* rows, const std::uint8_t* used, std::size_t stride, int pad, int reach, \
+      std::int16_t far, std::int16_t* out, std::uint8_t* out_used, std::size_t out_stride) {      \
+    relax_rows_body(rows, used, stride, pad, reach, far, out, out_used, out_stride);              \
+  }                                                                                               \
+  TARGET void relax_row_##NAME(const std::int16_t* padded, int pad, int reach, std::int16_t far,  \
+                               std::int16_t* out) {                                               \
+    relax_row_body(padded, pad, reach, far, out);                                                 \
+  }                                                                                               \
+  constexpr TileKernels kTile_##NAME = {relax_rows_##NAME, relax_row_##NAME};
+
+CANOPEER_TILE_KERNELS(scalar, )
+CANOPEER_TILE_KERNELS(avx2, CANOPEER_TARGET_AVX2)
+CANOPEER_TILE_KERNELS(avx512, CANOPEER_TARGET_AVX512)
+
+const TileKernels& tile_kernels(SimdLevel level) {
+  return level == SimdLevel::avx512 ? kTile_avx512
+         : level == SimdLevel::avx2 ? kTile_avx2
+                                    : kTile_scalar;
 }
 
 // 0 where occupied, `far` elsewhere, along the padded row (y, z); false: all far.
@@ -88,7 +124,8 @@ bool any_occupied(const TileSurroundings& around) {
 }  // namespace
 
 std::vector<std::int16_t> tile_distance2(const TileSurroundings& around, int reach,
-                                         TileScratch& scratch) {
+                                         TileScratch& scratch, SimdLevel simd) {
+  const TileKernels& kernels = tile_kernels(simd);
   if (!any_occupied(around)) return {};
   const int pad = around.halo * kBlockSide;
   const auto wide = static_cast<std::size_t>(kTileSide + 2 * pad);
@@ -102,15 +139,17 @@ std::vector<std::int16_t> tile_distance2(const TileSurroundings& around, int rea
     for (std::size_t y = 0; y < wide; ++y) {
       const bool used = expand_row(around, static_cast<int>(y), static_cast<int>(z), far, padded);
       scratch.x_row_used[z * wide + y] = used;
-      if (used) relax_row(padded.data(), pad, reach, far, &scratch.x_pass[(z * wide + y) * kSide]);
+      if (used)
+        kernels.relax_row(padded.data(), pad, reach, far, &scratch.x_pass[(z * wide + y) * kSide]);
     }
-    relax_rows(&scratch.x_pass[z * wide * kSide], &scratch.x_row_used[z * wide], 1, pad, reach, far,
-               &scratch.xy_pass[z * kSide * kSide], &scratch.xy_row_used[z * kSide], 1);
+    kernels.relax_rows(&scratch.x_pass[z * wide * kSide], &scratch.x_row_used[z * wide], 1, pad,
+                       reach, far, &scratch.xy_pass[z * kSide * kSide],
+                       &scratch.xy_row_used[z * kSide], 1);
   }
   std::vector<std::int16_t> tile(kSide * kSide * kSide);
   for (std::size_t y = 0; y < kSide; ++y) {
-    relax_rows(&scratch.xy_pass[y * kSide], &scratch.xy_row_used[y], kSide, pad, reach, far,
-               &tile[y * kSide], nullptr, kSide);
+    kernels.relax_rows(&scratch.xy_pass[y * kSide], &scratch.xy_row_used[y], kSide, pad, reach, far,
+                       &tile[y * kSide], nullptr, kSide);
   }
   return tile;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "canopeer/map/block.h"
+#include "canopeer/map/simd_level.h"
 
 namespace canopeer {
 
@@ -30,7 +31,8 @@ struct TileScratch {
 /// Per voxel of the tile (x fastest) min(reach², squared gap to the nearest occupied voxel), the
 /// gap of voxels n apart on an axis being max(0, n − 1): what is certain for any two of their
 /// points. Empty when nothing is within reach. reach ≤ 8 · halo and ≤ 120.
+/// `simd` must be a level the machine has; it changes the speed only.
 std::vector<std::int16_t> tile_distance2(const TileSurroundings& around, int reach,
-                                         TileScratch& scratch);
+                                         TileScratch& scratch, SimdLevel simd = best_simd_level());
 
 }  // namespace canopeer

@@ -1,17 +1,12 @@
 #include "canopeer/map/end_points.h"
 
-#include <cmath>
+#include <algorithm>
+#include <limits>
 
 #include "canopeer/base/check.h"
 
 namespace canopeer {
 namespace {
-
-// std::floor without the library call it is on baseline x86-64.
-int floor_to_int(double v) {
-  const int i = static_cast<int>(v);
-  return i - (v < i);
-}
 
 void check(const RgbdFrame& frame, const Mask& roi, const FusionOptions& options,
            double resolution_m) {
@@ -27,53 +22,98 @@ void check(const RgbdFrame& frame, const Mask& roi, const FusionOptions& options
                  "the camera is outside the map's index range");
 }
 
+// A row of pixels on its way, and room for what comes out.
+class RowProjection {
+ public:
+  RowProjection(const RgbdFrame& frame, const FusionOptions& options, double resolution_m)
+      : frame_(frame), R_(frame.T_world_camera.linear()) {
+    const CameraIntrinsics& k = frame.intrinsics;
+    const auto width = static_cast<std::size_t>(k.width);
+    for (auto* doubles : {&across_x_, &across_y_, &across_z_, &across2_}) doubles->resize(width);
+    for (auto* ints : {&x_, &y_, &z_, &is_end_}) ints->resize(width);
+    // The part of a ray's direction that depends on its column, and its square in the camera frame.
+    for (std::size_t u = 0; u < width; ++u) {
+      const double x = k.ray(static_cast<int>(u), 0).x();
+      const Vec3 across = R_.col(0) * x;
+      across_x_[u] = across.x();
+      across_y_[u] = across.y();
+      across_z_[u] = across.z();
+      across2_[u] = x * x;
+    }
+    const Vec3 origin = frame.T_world_camera.translation();
+    row_.width = width;
+    row_.across_x = across_x_.data();
+    row_.across_y = across_y_.data();
+    row_.across_z = across_z_.data();
+    row_.across2 = across2_.data();
+    row_.origin = {origin.x(), origin.y(), origin.z()};
+    row_.max_range_m = options.max_range_m;
+    row_.resolution_m = resolution_m;
+    row_.clear_no_return = options.clear_no_return;
+  }
+
+  void project(int v, float* free_depth, const FrameKernels& kernels) {
+    const double y = frame_.intrinsics.ray(0, v).y();
+    const Vec3 along = R_.col(1) * y + R_.col(2);
+    row_.depth = &frame_.depth.at(0, v);
+    row_.along = {along.x(), along.y(), along.z()};
+    row_.along2 = 1.0 + y * y;
+    kernels.end_point_row(row_, {free_depth, x_.data(), y_.data(), z_.data(), is_end_.data()});
+  }
+
+  [[nodiscard]] bool is_end(std::size_t u) const { return is_end_[u] != 0; }
+  [[nodiscard]] VoxelIndex voxel(std::size_t u) const { return {x_[u], y_[u], z_[u]}; }
+
+ private:
+  const RgbdFrame& frame_;
+  Eigen::Matrix3d R_;
+  PixelRow row_;
+  std::vector<double> across_x_, across_y_, across_z_, across2_;
+  std::vector<std::int32_t> x_, y_, z_, is_end_;
+};
+
+std::size_t voxel_offset(const VoxelIndex& voxel) {
+  constexpr int kMask = kBlockSide - 1;
+  return static_cast<std::size_t>((voxel.z() & kMask) << (2 * kBlockShift) |
+                                  (voxel.y() & kMask) << kBlockShift | (voxel.x() & kMask));
+}
+
 }  // namespace
 
 EndPoints find_end_points(const RgbdFrame& frame, const Mask& roi, const FusionOptions& options,
-                          double resolution_m) {
+                          double resolution_m, const FrameKernels& kernels) {
   check(frame, roi, options, resolution_m);
   const CameraIntrinsics& k = frame.intrinsics;
-  const Eigen::Matrix3d R = frame.T_world_camera.linear();
-  const Vec3 origin = frame.T_world_camera.translation();
+  const bool graded = options.roi_is_confidence && !roi.empty();
   EndPoints ends;
   ends.free_depth = DepthImage(k.width, k.height);
-  // The part of a ray's direction that depends on its column, and its square in the camera frame.
-  std::vector<Vec3> across(static_cast<std::size_t>(k.width));
-  std::vector<double> across2(across.size());
-  for (int u = 0; u < k.width; ++u) {
-    const double x = k.ray(u, 0).x();
-    across[static_cast<std::size_t>(u)] = R.col(0) * x;
-    across2[static_cast<std::size_t>(u)] = x * x;
-  }
-  BlockKey last_key = ~BlockKey{0};
-  std::uint32_t last_slot = 0;
+  RowProjection row(frame, options, resolution_m);
+  VoxelIndex last_block = VoxelIndex::Constant(std::numeric_limits<int>::min());
+  std::uint32_t slot = 0;
   for (int v = 0; v < k.height; ++v) {
-    const double y = k.ray(0, v).y();
-    const Vec3 row_direction = R.col(1) * y + R.col(2);
-    for (int u = 0; u < k.width; ++u) {
-      const auto column = static_cast<std::size_t>(u);
-      const double depth = static_cast<double>(frame.depth.at(u, v));
-      const double range_limit = options.max_range_m / std::sqrt(1.0 + y * y + across2[column]);
-      if (!(depth > 0.0 && std::isfinite(depth))) {
-        if (options.clear_no_return) ends.free_depth.at(u, v) = static_cast<float>(range_limit);
-        continue;
-      }
-      if (depth > range_limit) {
-        ends.free_depth.at(u, v) = static_cast<float>(range_limit);
-        continue;
-      }
-      ends.free_depth.at(u, v) = static_cast<float>(depth);
+    row.project(v, &ends.free_depth.at(0, v), kernels);
+    const std::uint8_t* roi_row = roi.empty() ? nullptr : &roi.at(0, v);
+    for (std::size_t u = 0; u < static_cast<std::size_t>(k.width); ++u) {
+      if (!row.is_end(u)) continue;
       ++ends.count;
-      const Vec3 p = (origin + depth * (row_direction + across[column])) / resolution_m;
-      const VoxelIndex voxel(floor_to_int(p.x()), floor_to_int(p.y()), floor_to_int(p.z()));
-      const BlockKey key = block_key(voxel);
-      if (key != last_key) {
-        last_key = key;
-        last_slot = ends.directory.find_or_add(key);
-        if (last_slot == ends.blocks.size()) ends.blocks.push_back({key, {}, {}});
+      const VoxelIndex voxel = row.voxel(u);
+      const VoxelIndex block(voxel.x() >> kBlockShift, voxel.y() >> kBlockShift,
+                             voxel.z() >> kBlockShift);
+      if (block != last_block) {
+        last_block = block;
+        const BlockKey key = pack_block(block.x(), block.y(), block.z());
+        slot = ends.directory.find_or_add(key);
+        if (slot == ends.blocks.size()) {
+          ends.blocks.push_back({key, {}, {}});
+          if (graded) ends.confidences.push_back({});
+        }
       }
-      ends.blocks[last_slot].hit.set(voxel);
-      if (!roi.empty() && roi.at(u, v) != 0) ends.blocks[last_slot].roi.set(voxel);
+      ends.blocks[slot].hit.set(voxel);
+      if (roi_row == nullptr || roi_row[u] == 0) continue;
+      ends.blocks[slot].roi.set(voxel);
+      if (!graded) continue;
+      std::uint8_t& confidence = ends.confidences[slot][voxel_offset(voxel)];
+      confidence = std::max(confidence, roi_row[u]);
     }
   }
   return ends;

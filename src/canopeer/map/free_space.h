@@ -4,6 +4,7 @@
 
 #include "canopeer/geometry/pose.h"
 #include "canopeer/map/block.h"
+#include "canopeer/map/frame_kernels.h"
 #include "canopeer/sensing/camera_intrinsics.h"
 #include "canopeer/sensing/image.h"
 
@@ -14,11 +15,17 @@ struct FreeBlock {
   VoxelMask free;
 };
 
+/// Blocks that a frame sees free; no key comes twice, no mask is empty.
+struct FreeSpace {
+  std::vector<BlockKey> whole;   ///< all voxels
+  std::vector<FreeBlock> parts;  ///< some
+};
+
 /// The voxels whose centres are seen nearer than `free_depth` (per pixel, along the axis) at the
-/// pixel they project to: at most one test a voxel, whole cubes of blocks at once where the depth
-/// pyramid allows. No mask is empty, no key comes twice; the order is fixed. In parallel.
-std::vector<FreeBlock> find_free_space(const DepthImage& free_depth,
-                                       const CameraIntrinsics& intrinsics,
-                                       const Pose& T_world_camera, double resolution_m);
+/// pixel they project to: at most one test a voxel, whole chunks and blocks at once where the depth
+/// pyramid allows. The order is fixed, chunk by chunk. In parallel.
+FreeSpace find_free_space(const DepthImage& free_depth, const CameraIntrinsics& intrinsics,
+                          const Pose& T_world_camera, double resolution_m,
+                          const FrameKernels& kernels);
 
 }  // namespace canopeer

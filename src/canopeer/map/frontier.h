@@ -15,8 +15,8 @@ struct FrontierTargets {
   std::vector<VoxelIndex> border;    ///< a 6-neighbour is unknown, none is occupied
 };
 
-/// Targets whose centres lie in `world` (neighbours may lie outside it). Bitwise on whole slices,
-/// blocks in parallel.
+/// Targets whose centres lie in `world` (neighbours may lie outside it). Bitwise on whole blocks,
+/// blocks in parallel. From scratch; FrontierIndex keeps them up to date.
 FrontierTargets extract_frontiers(const VoxelMap& map, const Box& world);
 
 }  // namespace canopeer

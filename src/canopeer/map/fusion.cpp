@@ -1,58 +1,104 @@
 #include "canopeer/map/fusion.h"
 
-#include <algorithm>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "canopeer/geometry/voxel_ray.h"
+#include "canopeer/map/block_directory.h"
 #include "canopeer/map/end_points.h"
+#include "canopeer/map/frame_kernels.h"
 #include "canopeer/map/free_space.h"
 
 namespace canopeer {
 namespace {
 
-// A voxel that holds an end point is a hit, whatever passes through it; the rest of `free` is a
-// miss.
-std::vector<BlockUpdate> combine(EndPoints& ends, const std::vector<FreeBlock>& free,
-                                 bool segmented) {
-  std::vector<BlockUpdate> updates;
-  updates.reserve(free.size() + ends.blocks.size());
-  std::vector<bool> combined(ends.blocks.size(), false);
-  const auto add_end_points = [&](BlockUpdate& update, const EndPoints::Block& block) {
+// A voxel that holds an end point is a hit, whatever passes through it; the rest of what is free
+// is a miss.
+class FrameUpdate {
+ public:
+  FrameUpdate(const EndPoints& ends, bool segmented)
+      : ends_(ends), segmented_(segmented), combined_(ends.blocks.size(), false) {
+    updates_.reserve(ends.blocks.size());
+  }
+
+  void add(const FreeSpace& free) {
+    updates_.reserve(free.parts.size() + ends_.blocks.size());
+    for (const FreeBlock& block : free.parts) {
+      const std::uint32_t end = end_points_in(block.key);
+      BlockUpdate& update = updates_.emplace_back();
+      update.key = block.key;
+      update.miss = block.free;
+      if (end != BlockDirectory::kFree) add_end_points(update, end);
+    }
+    all_free_.reserve(free.whole.size());
+    for (const BlockKey key : free.whole) {
+      const std::uint32_t end = end_points_in(key);
+      if (end == BlockDirectory::kFree) {
+        all_free_.push_back(key);
+        continue;
+      }
+      BlockUpdate& update = updates_.emplace_back();
+      update.key = key;
+      update.miss = VoxelMask::all();
+      add_end_points(update, end);
+    }
+    for (std::uint32_t i = 0; i < ends_.blocks.size(); ++i) {
+      if (combined_[i]) continue;
+      BlockUpdate& update = updates_.emplace_back();
+      update.key = ends_.blocks[i].key;
+      add_end_points(update, i);
+    }
+  }
+
+  FuseResult apply(VoxelMap& map, SimdLevel simd) const {
+    UpdateResult update = map.apply(updates_, all_free_, simd);
+    return {ends_.count, update.newly_known, update.updated_voxels, std::move(update.changed)};
+  }
+
+ private:
+  // Place in ends_.blocks, or kFree. Free space comes chunk by chunk.
+  std::uint32_t end_points_in(BlockKey key) {
+    if (BlockDirectory::chunk_key(key) != chunk_key_) {
+      chunk_key_ = BlockDirectory::chunk_key(key);
+      chunk_ = ends_.directory.chunk(key);
+    }
+    return chunk_ == nullptr ? BlockDirectory::kFree
+                             : chunk_->slots[BlockDirectory::place_in_chunk(key)];
+  }
+
+  void add_end_points(BlockUpdate& update, std::uint32_t end) {
+    const EndPoints::Block& block = ends_.blocks[end];
+    combined_[end] = true;
     update.hit = block.hit;
     update.miss -= block.hit;
-    if (!segmented) return;
+    if (!segmented_) return;
     update.roi_hit = block.roi;
     update.roi_miss = block.hit;
     update.roi_miss -= block.roi;
-  };
-  for (const FreeBlock& block : free) {
-    BlockUpdate& update = updates.emplace_back();
-    update.key = block.key;
-    update.miss = block.free;
-    const auto slot = ends.directory.find(block.key);
-    if (!slot) continue;
-    add_end_points(update, ends.blocks[*slot]);
-    combined[*slot] = true;
+    if (!ends_.confidences.empty()) update.roi_confidence = ends_.confidences[end].data();
   }
-  for (std::size_t i = 0; i < ends.blocks.size(); ++i) {
-    if (combined[i]) continue;
-    BlockUpdate& update = updates.emplace_back();
-    update.key = ends.blocks[i].key;
-    add_end_points(update, ends.blocks[i]);
-  }
-  return updates;
+
+  const EndPoints& ends_;
+  bool segmented_;
+  std::vector<bool> combined_;
+  std::vector<BlockUpdate> updates_;
+  std::vector<BlockKey> all_free_;
+  BlockKey chunk_key_ = ~BlockKey{0};
+  const BlockDirectory::Chunk* chunk_ = nullptr;
+};
+
+FuseResult apply(VoxelMap& map, const EndPoints& ends, const FreeSpace& free, bool segmented,
+                 SimdLevel simd) {
+  FrameUpdate update(ends, segmented);
+  update.add(free);
+  return update.apply(map, simd);
 }
 
-FuseResult apply(VoxelMap& map, EndPoints& ends, const std::vector<FreeBlock>& free,
-                 bool segmented) {
-  UpdateResult update = map.apply(combine(ends, free, segmented));
-  return {ends.count, update.newly_known, update.updated_voxels, std::move(update.changed)};
-}
-
-std::vector<FreeBlock> walk_rays(const RgbdFrame& frame, const DepthImage& free_depth,
-                                 double resolution_m) {
+FreeSpace walk_rays(const RgbdFrame& frame, const DepthImage& free_depth, double resolution_m) {
   BlockDirectory directory;
-  std::vector<FreeBlock> blocks;
+  FreeSpace free;
+  std::uint32_t slot = 0;
   const Vec3 origin = frame.T_world_camera.translation();
   for (int v = 0; v < free_depth.height(); ++v) {
     for (int u = 0; u < free_depth.width(); ++u) {
@@ -60,34 +106,40 @@ std::vector<FreeBlock> walk_rays(const RgbdFrame& frame, const DepthImage& free_
       if (depth <= 0.0) continue;
       const Vec3 end = frame.T_world_camera * (depth * frame.intrinsics.ray(u, v));
       const VoxelIndex last = voxel_at(end, resolution_m);
+      BlockKey in_block = ~BlockKey{0};
       walk_voxels(origin, end, resolution_m, [&](const VoxelIndex& voxel) {
         if (voxel == last) return false;
         const BlockKey key = block_key(voxel);
-        const std::uint32_t slot = directory.find_or_add(key);
-        if (slot == blocks.size()) blocks.push_back({key, {}});
-        blocks[slot].free.set(voxel);
+        if (key != in_block) {
+          in_block = key;
+          slot = directory.find_or_add(key);
+          if (slot == free.parts.size()) free.parts.push_back({key, {}});
+        }
+        free.parts[slot].free.set(voxel);
         return true;
       });
     }
   }
-  return blocks;
+  return free;
 }
 
 }  // namespace
 
 FuseResult fuse(VoxelMap& map, const RgbdFrame& frame, const Mask& roi,
                 const FusionOptions& options) {
-  EndPoints ends = find_end_points(frame, roi, options, map.resolution_m());
-  const std::vector<FreeBlock> free =
-      find_free_space(ends.free_depth, frame.intrinsics, frame.T_world_camera, map.resolution_m());
-  return apply(map, ends, free, !roi.empty());
+  const FrameKernels& kernels = frame_kernels(options.simd);
+  const EndPoints ends = find_end_points(frame, roi, options, map.resolution_m(), kernels);
+  const FreeSpace free = find_free_space(ends.free_depth, frame.intrinsics, frame.T_world_camera,
+                                         map.resolution_m(), kernels);
+  return apply(map, ends, free, !roi.empty(), options.simd);
 }
 
 FuseResult fuse_exact(VoxelMap& map, const RgbdFrame& frame, const Mask& roi,
                       const FusionOptions& options) {
-  EndPoints ends = find_end_points(frame, roi, options, map.resolution_m());
-  const std::vector<FreeBlock> free = walk_rays(frame, ends.free_depth, map.resolution_m());
-  return apply(map, ends, free, !roi.empty());
+  const EndPoints ends =
+      find_end_points(frame, roi, options, map.resolution_m(), frame_kernels(options.simd));
+  const FreeSpace free = walk_rays(frame, ends.free_depth, map.resolution_m());
+  return apply(map, ends, free, !roi.empty(), options.simd);
 }
 
 }  // namespace canopeer

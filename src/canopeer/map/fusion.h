@@ -11,9 +11,16 @@ namespace canopeer {
 struct FusionOptions {
   /// Points farther from the camera (Euclidean) are no end points; space is freed up to here.
   double max_range_m = 3.0;
-  /// A pixel without return (0, NaN, infinite) frees its ray up to max_range_m. Off by default: a
-  /// surface too near gives no return either.
+  /// A pixel without return (0, NaN, infinite) frees its ray up to max_range_m; a negative one
+  /// (what the robot's own links are masked with) never does. Off by default: a surface too near
+  /// gives no return either.
   bool clear_no_return = false;
+  /// Pixels of the ROI mask are how sure the detector is, 0 … 255, instead of no (0) and yes: the
+  /// ROI probability of a hit rises with it from miss_probability to hit_probability, in a voxel by
+  /// its surest pixel. A mask of 0 and 255 gives the same either way.
+  bool roi_is_confidence = false;
+  /// Not above best_simd_level(). Changes the speed only.
+  SimdLevel simd = best_simd_level();
 };
 
 struct FuseResult {

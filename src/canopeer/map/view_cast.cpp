@@ -115,8 +115,8 @@ class WalkingRay {
 // Collects the voxels that rays cross before the first occupied one, in a dense window of chunks.
 class Caster {
  public:
-  // All rays lie within `world`.
-  Caster(const VoxelMap& map, const Box& world) : map_(map) {
+  // All rays lie within `world`. `all`: known voxels are wanted too, so no block is clear.
+  Caster(const VoxelMap& map, const Box& world, bool all) : map_(map), all_(all) {
     const double chunk_m = kChunkSide * kBlockSide * map.resolution_m();
     // One to spare on each side: a walk may pass its end by a voxel before it stops.
     first_block_ = (voxel_at(world.min(), chunk_m) - VoxelIndex::Ones()) * kChunkSide;
@@ -137,6 +137,7 @@ class Caster {
   // The ray ends after crossing `max_unknown_m` of unknown space.
   void cast(const Vec3& from, const Vec3& to, double max_unknown_m);
   [[nodiscard]] ViewCast result() const;
+  [[nodiscard]] SeenVoxels all() const;
 
  private:
   static constexpr int kChunkSide = 1 << BlockDirectory::kChunkShift;
@@ -173,8 +174,18 @@ class Caster {
     return number == kClear ? nullptr : &crossed_[number - kFirst];
   }
   std::uint32_t number_new(int x, int y, int z);
+  void stop_at(const Crossed* block, std::size_t slice, std::uint64_t bit) {
+    const auto i = static_cast<std::size_t>(block - crossed_.data());
+    if (stops_.size() <= i) stops_.resize(crossed_.size());
+    stops_[i].slices[slice] |= bit;
+  }
+  // `visit(BlockKey, const Crossed*)` (nullptr: clear) for the blocks entered, sorted by key.
+  template <typename Visit>
+  void for_each_entered(Visit&& visit) const;
 
   const VoxelMap& map_;
+  bool all_;
+  std::vector<VoxelMask> stops_;  // where rays stopped, by place in crossed_; only for all_
   VoxelIndex first_block_;
   VoxelIndex blocks_;  // of the window, per axis
   std::vector<std::uint32_t>
@@ -194,8 +205,8 @@ std::uint32_t Caster::number_new(int x, int y, int z) {
     if (chunk->slots[place] != BlockDirectory::kFree) {
       const unsigned summary = chunk->summaries[place];
       constexpr unsigned kRelevant = BlockSummary::kComplete | BlockSummary::kOccupied;
-      if ((summary & kRelevant) == BlockSummary::kComplete) return kClear;
-      block.known = map_.block(key);
+      if (!all_ && (summary & kRelevant) == BlockSummary::kComplete) return kClear;
+      block.known = &map_.block_in_slot(chunk->slots[place]);
       if ((summary & BlockSummary::kOccupied) != 0) {
         block.occupied = &block.known->occupied;
       }
@@ -219,7 +230,10 @@ void Caster::cast(const Vec3& from, const Vec3& to, double max_unknown_m) {
     do {
       const std::size_t slice = slice_of(ray.at());
       const std::uint64_t bit = bit_of(ray.at());
-      if (block->occupied != nullptr && (block->occupied->slices[slice] & bit) != 0) return;
+      if (block->occupied != nullptr && (block->occupied->slices[slice] & bit) != 0) {
+        if (all_) stop_at(block, slice, bit);
+        return;
+      }
       block->voxels.slices[slice] |= bit;
       const bool known =
           block->known != nullptr && (block->known->observed.slices[slice] & bit) != 0;
@@ -230,34 +244,61 @@ void Caster::cast(const Vec3& from, const Vec3& to, double max_unknown_m) {
 }
 
 // Window order is key order.
+template <typename Visit>
+void Caster::for_each_entered(Visit&& visit) const {
+  const std::uint32_t* number = number_.data();
+  for_each_index(blocks_, [&](int x, int y, int z) {
+    const std::uint32_t n = *number++;
+    if (n != kNew) visit(key_at(x, y, z), n == kClear ? nullptr : &crossed_[n - kFirst]);
+  });
+}
+
 ViewCast Caster::result() const {
   ViewCast cast;
   cast.touched.reserve(2 * crossed_.size());
   std::vector<VoxelSet::Block> unknown;
   unknown.reserve(crossed_.size());
-  const std::uint32_t* number = number_.data();
-  for_each_index(blocks_, [&](int x, int y, int z) {
-    if (*number == kNew) {
-      ++number;
-      return;
-    }
-    const BlockKey key = key_at(x, y, z);
+  for_each_entered([&](BlockKey key, const Crossed* block) {
     cast.touched.push_back(key);
-    if (*number != kClear) {
-      const Crossed& block = crossed_[*number - kFirst];
-      VoxelMask voxels = block.voxels;
-      if (block.known != nullptr) voxels -= block.known->observed;
-      if (voxels.any()) unknown.push_back({key, voxels});
-    }
-    ++number;
+    if (block == nullptr) return;
+    VoxelMask voxels = block->voxels;
+    if (block->known != nullptr) voxels -= block->known->observed;
+    if (voxels.any()) unknown.push_back({key, voxels});
   });
   cast.unknown = VoxelSet(std::move(unknown));
   return cast;
 }
 
-}  // namespace
+SeenVoxels Caster::all() const {
+  SeenVoxels seen;
+  std::vector<VoxelSet::Block> unknown, free, occupied, roi;
+  for_each_entered([&](BlockKey key, const Crossed* block) {
+    seen.touched.push_back(key);
+    VoxelMask not_known = block->voxels;
+    if (block->known != nullptr) {
+      not_known -= block->known->observed;
+      VoxelMask known = block->voxels;
+      known &= block->known->observed;
+      free.push_back({key, known});
+      const auto i = static_cast<std::size_t>(block - crossed_.data());
+      const VoxelMask stops = i < stops_.size() ? stops_[i] : VoxelMask{};
+      occupied.push_back({key, stops});
+      VoxelMask fruit = block->voxels;
+      fruit |= stops;
+      fruit &= block->known->roi;
+      roi.push_back({key, fruit});
+    }
+    unknown.push_back({key, not_known});
+  });
+  seen.unknown = VoxelSet(std::move(unknown));
+  seen.free = VoxelSet(std::move(free));
+  seen.occupied = VoxelSet(std::move(occupied));
+  seen.roi = VoxelSet(std::move(roi));
+  return seen;
+}
 
-ViewCast cast_view(const VoxelMap& map, const Pose& T_world_camera, const ViewFan& fan) {
+// A caster that has cast the fan.
+Caster cast_fan(const VoxelMap& map, const Pose& T_world_camera, const ViewFan& fan, bool all) {
   CANOPEER_CHECK(fan.columns >= 1 && fan.rows >= 1, "a view fan has at least one ray");
   const double extent_x = std::tan(fan.fov_x_rad / 2.0);
   const double extent_y = std::tan(fan.fov_y_rad / 2.0);
@@ -269,14 +310,24 @@ ViewCast cast_view(const VoxelMap& map, const Pose& T_world_camera, const ViewFa
   for (const double x : {-extent_x, extent_x}) {
     for (const double y : {-extent_y, extent_y}) world.extend(end(x, y));
   }
-  Caster caster(map, world);
+  Caster caster(map, world, all);
   for (int row = 0; row < fan.rows; ++row) {
     for (int column = 0; column < fan.columns; ++column) {
       caster.cast(from, end(place(column, fan.columns, extent_x), place(row, fan.rows, extent_y)),
                   fan.max_unknown_m);
     }
   }
-  return caster.result();
+  return caster;
+}
+
+}  // namespace
+
+ViewCast cast_view(const VoxelMap& map, const Pose& T_world_camera, const ViewFan& fan) {
+  return cast_fan(map, T_world_camera, fan, false).result();
+}
+
+SeenVoxels cast_view_all(const VoxelMap& map, const Pose& T_world_camera, const ViewFan& fan) {
+  return cast_fan(map, T_world_camera, fan, true).all();
 }
 
 bool still_valid(const ViewCast& cast, const std::vector<BlockKey>& changed_sorted) {
@@ -287,6 +338,11 @@ bool still_valid(const ViewCast& cast, const std::vector<BlockKey>& changed_sort
     if (*it == key) return false;
   }
   return true;
+}
+
+bool still_valid(const ViewCast& cast, const VoxelMap& map, std::uint64_t version) {
+  return std::all_of(cast.touched.begin(), cast.touched.end(),
+                     [&](BlockKey key) { return map.block_version(key) <= version; });
 }
 
 bool ray_blocked(const VoxelMap& map, const Vec3& from, const Vec3& to, double ignore_near_from_m) {

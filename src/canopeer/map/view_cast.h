@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -34,8 +35,23 @@ struct ViewCast {
 /// unknown ones.
 ViewCast cast_view(const VoxelMap& map, const Pose& T_world_camera, const ViewFan& fan = {});
 
+/// All that the view sees, not only what is new.
+struct SeenVoxels {
+  VoxelSet unknown;
+  VoxelSet free;
+  VoxelSet occupied;  ///< where rays stop
+  VoxelSet roi;       ///< ⊂ free ∪ occupied ∪ unknown
+  std::vector<BlockKey> touched;
+};
+
+/// As cast_view(), for every kind of voxel; slower, as rays then step through free space too.
+SeenVoxels cast_view_all(const VoxelMap& map, const Pose& T_world_camera, const ViewFan& fan = {});
+
 /// None of the blocks the rays crossed is in `changed_sorted`.
 bool still_valid(const ViewCast& cast, const std::vector<BlockKey>& changed_sorted);
+/// The same by version stamps: no block the rays crossed has changed after update number
+/// `version` of the map (VoxelMap::version() when the view was cast).
+bool still_valid(const ViewCast& cast, const VoxelMap& map, std::uint64_t version);
 
 /// An occupied voxel lies on the segment from → to, both ends included, the first
 /// `ignore_near_from_m` left out.

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <span>
 #include <vector>
@@ -9,6 +9,8 @@
 #include "canopeer/base/expected.h"
 #include "canopeer/map/block.h"
 #include "canopeer/map/block_directory.h"
+#include "canopeer/map/log_odds_kernels.h"
+#include "canopeer/map/paged_array.h"
 
 namespace canopeer {
 
@@ -42,6 +44,9 @@ struct BlockUpdate {
   VoxelMask miss;
   VoxelMask roi_hit;
   VoxelMask roi_miss;
+  /// How sure the hits of `roi_hit` are, per voxel of the block (x fastest), 0 … 255; nullptr: 255
+  /// all. Must live until the update is applied.
+  const std::uint8_t* roi_confidence = nullptr;
 };
 
 struct UpdateResult {
@@ -52,8 +57,12 @@ struct UpdateResult {
 
 /// Voxel map of the world: per voxel a log-odds of being occupied and one of being region of
 /// interest (fruit), in a hash of 8³ blocks; per block bit masks of what the voxels are. Log-odds
-/// are fixed point (1/2048), so sums do not depend on order or machine. Const calls are
-/// thread-safe; a copy is a snapshot.
+/// are fixed point (1/2048), so sums do not depend on order or machine. Blocks whose voxels all
+/// have one log-odds (most of free space) keep just that.
+///
+/// Const calls are thread-safe. A copy is a snapshot: it shares with the original what neither has
+/// changed since, costs a pointer a page of some dozen blocks, and may be read (or written) by
+/// another thread while this map takes the next frame.
 class VoxelMap {
  public:
   /// `options` must be valid.
@@ -82,10 +91,14 @@ class VoxelMap {
     const auto slot = directory_.find(key);
     return slot ? &masks_[*slot] : nullptr;
   }
+  /// The masks of a block by its slot in chunk().
+  [[nodiscard]] const BlockMasks& block_in_slot(std::uint32_t slot) const { return masks_[slot]; }
   /// The 4 × 4 × 4 blocks around `key` (slots mean nothing outside); nullptr: nothing observed.
   [[nodiscard]] const BlockDirectory::Chunk* chunk(BlockKey key) const {
     return directory_.chunk(key);
   }
+  /// Number of updates so far: block_version() of what changes from now on is larger.
+  [[nodiscard]] std::uint64_t version() const { return updates_; }
   /// Number of the update that last changed the block's masks; 0: never.
   [[nodiscard]] std::uint64_t block_version(BlockKey key) const;
   /// Observed blocks, sorted; the second form only those that overlap `world`.
@@ -96,12 +109,16 @@ class VoxelMap {
   /// observed.
   template <typename Visit>
   void for_each_block(Visit&& visit) const {
-    for (std::size_t slot = 0; slot < keys_.size(); ++slot) visit(keys_[slot], masks_[slot]);
+    for (std::size_t slot = 0; slot < blocks_.size(); ++slot) {
+      visit(blocks_[slot].key, masks_[slot]);
+    }
   }
 
-  /// Applies an observation; no key twice. Parallel over blocks, the same result with any number
-  /// of threads.
-  UpdateResult apply(std::span<const BlockUpdate> updates);
+  /// Applies an observation: `updates`, and a miss for every voxel of the blocks `all_free`; no key
+  /// twice, in neither. Parallel over blocks, the same result with any number of threads and any
+  /// level of `simd` the machine has.
+  UpdateResult apply(std::span<const BlockUpdate> updates, std::span<const BlockKey> all_free = {},
+                     SimdLevel simd = best_simd_level());
   /// Sets a voxel's occupancy as a map file gives it (clamped, then rounded to 1/2048).
   void set_occupancy_log_odds(const VoxelIndex& voxel, double log_odds);
   void set_roi_log_odds(const VoxelIndex& voxel, double log_odds);
@@ -109,29 +126,52 @@ class VoxelMap {
  private:
   using FixedPoint = std::int16_t;
   using BlockLogOdds = std::array<FixedPoint, kBlockVoxels>;
-  struct Increments {
-    FixedPoint hit, miss, min, max, threshold;
-  };
-  static constexpr std::uint32_t kNoRoi = 0xFFFFFFFF;
+  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
 
-  static Increments fixed_point(const VoxelMapOptions& options);
-  static void add_log_odds(BlockLogOdds& log_odds, const VoxelMask& hit, const VoxelMask& miss,
-                           const Increments& steps, VoxelMask& above);
-  std::uint32_t slot_for(BlockKey key, bool with_roi);
+  struct Block {
+    BlockKey key = 0;
+    std::uint64_t version = 0;
+    std::uint32_t log_odds = kNone;      // place in log_odds_; kNone: all voxels have `uniform`
+    std::uint32_t roi_log_odds = kNone;  // only blocks with end points in them have some
+    FixedPoint uniform = 0;
+  };
+  // Where an update goes; looked up and made this map's own before any thread writes.
+  struct Place {
+    std::uint32_t slot = 0;
+    std::uint8_t* summary = nullptr;
+    bool settled = false;  // nothing can move
+  };
+  struct Outcome {
+    bool changed = false, uniform = false;
+    int stepped = 0, observed = 0, occupied = 0, roi = 0;
+  };
+
+  static LogOddsSteps fixed_point(const VoxelMapOptions& options);
+  static std::array<FixedPoint, 256> confidence_steps(const VoxelMapOptions& options);
+  std::uint32_t slot_for(BlockDirectory::Chunk& chunk, std::size_t place, BlockKey key);
+  std::uint32_t new_log_odds(FixedPoint value);
+  std::uint32_t own_log_odds(Block& block);
+  std::uint32_t own_roi_log_odds(Block& block);
+  Place place_for(const BlockUpdate& update, BlockDirectory::Chunk& chunk);
+  Outcome apply(const BlockUpdate& update, const Place& place, const LogOddsKernels& kernels);
+  Outcome apply_all_free(const Place& place, const LogOddsKernels& kernels);
+  bool apply_uniform(BlockDirectory::Chunk& chunk, std::size_t in_chunk, BlockKey key,
+                     UpdateResult& result);
+  void step_roi(const BlockUpdate& update, const Block& block, const LogOddsKernels& kernels,
+                VoxelMask& roi);
+  void count(const Outcome& outcome, std::uint32_t slot, UpdateResult& result);
   static std::uint8_t summary_of(const BlockMasks& masks);
-  [[nodiscard]] bool settled(const BlockLogOdds& log_odds) const;
   void write_log_odds(const VoxelIndex& voxel, double log_odds, bool roi);
 
   VoxelMapOptions options_;
-  Increments steps_;
+  LogOddsSteps steps_;
+  std::array<FixedPoint, 256> confidence_steps_;
   BlockDirectory directory_;
-  std::vector<BlockKey> keys_;
-  std::vector<BlockMasks> masks_;
-  std::vector<std::uint64_t> versions_;
-  std::deque<BlockLogOdds> log_odds_;
-  // Only blocks with end points in them have ROI log-odds.
-  std::vector<std::uint32_t> roi_slots_;
-  std::deque<BlockLogOdds> roi_log_odds_;
+  PagedArray<Block, 512> blocks_;
+  PagedArray<BlockMasks, 128> masks_;
+  PagedArray<BlockLogOdds, 32> log_odds_;
+  PagedArray<BlockLogOdds, 32> roi_log_odds_;
+  std::vector<std::uint32_t> unused_log_odds_;  // places in log_odds_ nobody has any more
   std::uint64_t updates_ = 0;
   std::int64_t observed_voxels_ = 0;
   std::int64_t occupied_voxels_ = 0;

@@ -20,23 +20,45 @@ bool VoxelSet::contains(const VoxelIndex& voxel) const {
   return it != blocks_.end() && it->key == key && it->mask.test(voxel);
 }
 
+// In place: blocks both have take the other's bits; room for the rest is made from the back.
 void VoxelSet::merge(const VoxelSet& other) {
-  std::vector<Block> merged;
-  merged.reserve(blocks_.size() + other.blocks_.size());
-  auto a = blocks_.begin();
+  std::size_t missing = 0;
+  std::size_t i = 0;
+  for (const Block& block : other.blocks_) {
+    while (i < blocks_.size() && blocks_[i].key < block.key) ++i;
+    if (i == blocks_.size() || blocks_[i].key != block.key) {
+      ++missing;
+      continue;
+    }
+    count_ -= blocks_[i].mask.count();
+    blocks_[i].mask |= block.mask;
+    count_ += blocks_[i].mask.count();
+  }
+  if (missing == 0) return;
+  std::size_t a = blocks_.size();
+  std::size_t b = other.blocks_.size();
+  std::size_t out = a + missing;
+  blocks_.resize(out);
+  while (out > a) {
+    if (a > 0 && blocks_[a - 1].key >= other.blocks_[b - 1].key) {
+      if (blocks_[a - 1].key == other.blocks_[b - 1].key) --b;
+      blocks_[--out] = blocks_[--a];
+    } else {
+      blocks_[--out] = other.blocks_[--b];
+      count_ += blocks_[out].mask.count();
+    }
+  }
+}
+
+void VoxelSet::subtract(const VoxelSet& other) {
   auto b = other.blocks_.begin();
   count_ = 0;
-  while (a != blocks_.end() || b != other.blocks_.end()) {
-    const bool take_a = b == other.blocks_.end() || (a != blocks_.end() && a->key <= b->key);
-    const bool take_b = a == blocks_.end() || (b != other.blocks_.end() && b->key <= a->key);
-    Block block = take_a ? *a : *b;
-    if (take_a && take_b) block.mask |= b->mask;
-    if (take_a) ++a;
-    if (take_b) ++b;
+  for (Block& block : blocks_) {
+    while (b != other.blocks_.end() && b->key < block.key) ++b;
+    if (b != other.blocks_.end() && b->key == block.key) block.mask -= b->mask;
     count_ += block.mask.count();
-    merged.push_back(block);
   }
-  blocks_ = std::move(merged);
+  std::erase_if(blocks_, [](const Block& block) { return !block.mask.any(); });
 }
 
 std::int64_t VoxelSet::count_new(const VoxelSet& other) const {

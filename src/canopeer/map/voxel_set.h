@@ -26,8 +26,17 @@ class VoxelSet {
   [[nodiscard]] bool contains(const VoxelIndex& voxel) const;
   /// Adds the voxels of `other`.
   void merge(const VoxelSet& other);
+  /// Removes the voxels of `other`.
+  void subtract(const VoxelSet& other);
   /// |other \ this|: by how much merge(other) would grow this set.
   [[nodiscard]] std::int64_t count_new(const VoxelSet& other) const;
+  /// Σ weight(VoxelIndex) over the voxels, in the order of for_each().
+  template <typename Weight>
+  [[nodiscard]] double weighted_count(Weight&& weight) const {
+    double sum = 0.0;
+    for_each([&](const VoxelIndex& voxel) { sum += weight(voxel); });
+    return sum;
+  }
   /// Sorted by key, no mask empty.
   [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }
 

@@ -12,6 +12,7 @@
 #include "canopeer/planner/registry.h"
 #include "canopeer/robot/collision_checker.h"
 #include "canopeer/robot/motion_planner.h"
+#include "canopeer/robot/self_filter.h"
 
 namespace canopeer {
 
@@ -35,6 +36,10 @@ struct MissionOptions {
   int background_workers = 0;
   VoxelMapOptions map;
   FusionOptions fusion;
+  /// The robot's own links are taken out of every frame before anything else looks at it. A real
+  /// camera needs that; the simulated one does not show the robot.
+  bool mask_robot = false;
+  SelfFilterOptions self_filter;
   double field_truncation_m = 0.15;  ///< distances to occupied voxels are known up to here
   double field_reach_m = 1.4;  ///< half side of the box around the arm's base in which they are
   ColorDetectorOptions detector;

@@ -14,6 +14,18 @@ void Perception::move_field(const Vec3& base_world) {
   field_->rebuild(map_);
 }
 
+// The map changes in observe() only, so an index of the same region has missed nothing.
+FrontierTargets Perception::targets(const Box& region_world, const std::vector<BlockKey>& changed) {
+  const bool kept = frontiers_ && frontiers_->world().min() == region_world.min() &&
+                    frontiers_->world().max() == region_world.max();
+  if (kept) {
+    frontiers_->update(map_, changed);
+  } else {
+    frontiers_.emplace(region_world, map_.resolution_m()).rebuild(map_);
+  }
+  return frontiers_->targets();
+}
+
 Observation Perception::observe(const RgbdFrame& frame, const Box& region_world, WorkMeter& work,
                                 StageTimer& timer) {
   const Detection detection = timer.time("detect", [&] { return detector_.detect(frame); });
@@ -22,7 +34,7 @@ Observation Perception::observe(const RgbdFrame& frame, const Box& region_world,
       timer.time("fuse", [&] { return fuse(map_, frame, detection.fruit, options_.fusion); });
   timer.time("distance field", [&] { field_->update(map_, seen.fused.changed); });
   seen.change.targets =
-      timer.time("targets", [&] { return extract_frontiers(map_, region_world); });
+      timer.time("targets", [&] { return targets(region_world, seen.fused.changed); });
   seen.change.blocks = seen.fused.changed;
   timer.time("fruit map", [&] {
     fruits_.add(frame, detection.fruit);

@@ -7,7 +7,7 @@
 #include "canopeer/detect/color_detector.h"
 #include "canopeer/fruit/fruit_map.h"
 #include "canopeer/map/distance_field.h"
-#include "canopeer/map/frontier.h"
+#include "canopeer/map/frontier_index.h"
 #include "canopeer/map/fusion.h"
 #include "canopeer/mission/mission_options.h"
 #include "canopeer/mission/stage_timer.h"
@@ -30,8 +30,8 @@ class Perception {
   /// The robot stands somewhere new: distances are wanted around its base from now on.
   void move_field(const Vec3& base_world);
 
-  /// Detects, fuses, and re-extracts the targets inside `region_world`. The fruit map, which nobody
-  /// plans with, is brought up to date aside: its work is not counted.
+  /// Detects, fuses, and brings the targets inside `region_world` up to date. The fruit map, which
+  /// nobody plans with, is brought up to date aside: its work is not counted.
   Observation observe(const RgbdFrame& frame, const Box& region_world, WorkMeter& work,
                       StageTimer& timer);
 
@@ -40,10 +40,13 @@ class Perception {
   [[nodiscard]] const FruitMap& fruits() const { return fruits_; }
 
  private:
+  FrontierTargets targets(const Box& region_world, const std::vector<BlockKey>& changed);
+
   MissionOptions options_;
   ColorDetector detector_;
   VoxelMap map_;
   std::optional<DistanceField> field_;
+  std::optional<FrontierIndex> frontiers_;  // of the region asked for last
   FruitMap fruits_;
 };
 

@@ -29,7 +29,8 @@ SegmentRunner::SegmentRunner(MissionContext& context, int index)
       index_(index),
       frame_(segment_frame(context.robot, context.options.segments[static_cast<std::size_t>(index)],
                            index)),
-      checker_(context.robot, frame_.trolley, context.options.collision) {
+      checker_(context.robot, frame_.trolley, context.options.collision),
+      self_filter_(context.robot, context.options.self_filter) {
   context_.background.alone([&] {
     context_.perception.move_field(frame_.T_world_base.translation());
     checker_.set_map(&context_.perception.field());
@@ -88,6 +89,10 @@ Expected<void> SegmentRunner::run(const Configuration& home_after) {
 Expected<void> SegmentRunner::observe(TargetKind kind, std::optional<std::int64_t> predicted) {
   auto frame = context_.timer.time("camera", [&] { return context_.ports.camera->capture(); });
   if (!frame) return fail_in("camera", frame.error());
+  if (context_.options.mask_robot) {
+    self_filter_.mask(*frame, context_.ports.arm->configuration(),
+                      context_.ports.trolley->state());
+  }
   WorkMeter work;
   Observation seen = context_.background.alone([&] {
     return context_.perception.observe(*frame, frame_.sampling_region_world, work, context_.timer);

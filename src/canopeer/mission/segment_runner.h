@@ -55,6 +55,7 @@ class SegmentRunner {
   int index_;
   SegmentFrame frame_;
   CollisionChecker checker_;
+  SelfFilter self_filter_;
   double start_s_ = 0.0;
   double standing_since_s_ = 0.0;
   double last_standing_s_ = 0.0;  ///< before the last motion

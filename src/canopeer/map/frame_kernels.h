@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "canopeer/map/simd_level.h"
+
+namespace canopeer {
+
+/// A row of pixels on its way to voxels; arrays of `width` items. What depends on the column only
+/// is shared by all rows.
+struct PixelRow {
+  std::size_t width = 0;
+  const float* depth = nullptr;      ///< m along the axis; anything
+  const double* across_x = nullptr;  ///< R · (x of the column's ray, 0, 0), world
+  const double* across_y = nullptr;
+  const double* across_z = nullptr;
+  const double* across2 = nullptr;  ///< (x of the column's ray)²
+  std::array<double, 3> along{};    ///< R · (0, y of the row's ray, 1), world
+  double along2 = 0.0;              ///< 1 + (y of the row's ray)²
+  std::array<double, 3> origin{};   ///< of the camera, world
+  double max_range_m = 0.0;         ///< Euclidean
+  double resolution_m = 0.0;
+  bool clear_no_return = false;
+};
+
+/// What comes out of it, arrays of `width` items.
+struct PixelRowEnds {
+  float* free_depth = nullptr;  ///< m along the axis up to which the ray is free; 0: nowhere
+  std::int32_t* x = nullptr;    ///< voxel of the end point, where there is one
+  std::int32_t* y = nullptr;
+  std::int32_t* z = nullptr;
+  std::int32_t* is_end = nullptr;  ///< 1: the pixel has an end point
+};
+
+/// A pinhole camera in single precision, and the smallest and largest depths of cells of 2^l × 2^l
+/// pixels (level l ≥ 1), all levels in one array.
+struct FlatPyramid {
+  static constexpr int kMaxLevels = 16;
+  int width = 0, height = 0;
+  float fx = 0, fy = 0, cx = 0, cy = 0;
+  const float* depth = nullptr;  ///< level 0, row-major
+  const float* min = nullptr;
+  const float* max = nullptr;
+  int top = 1;                                        ///< the level of one cell
+  std::array<std::int32_t, kMaxLevels> offset{};      ///< of a level's first cell
+  std::array<std::int32_t, kMaxLevels> cells_wide{};  ///< of a level's rows
+  float largest = 0;                                  ///< depth of all
+};
+
+/// Up to 64 cubes of one size, by the box around their voxels' centres in the camera frame, m.
+/// Lanes beyond `count` hold anything finite.
+struct CubeLanes {
+  static constexpr std::size_t kMax = 64;
+  std::size_t count = 0;                  ///< a multiple of 8
+  alignas(64) std::array<float, kMax> x;  ///< centres
+  alignas(64) std::array<float, kMax> y;
+  alignas(64) std::array<float, kMax> z;
+  std::array<float, 3> half{};  ///< half the box's sides
+};
+
+/// Bit i: cube i. The rest must be looked at voxel by voxel.
+struct CubeViews {
+  std::uint64_t none_free = 0;
+  std::uint64_t all_free = 0;
+};
+
+/// 4 × 4 × 4 voxels: the first centre of each of the 4 slices (camera frame), and where the 16
+/// voxels of a slice (x fastest) are from there.
+struct VoxelLanes {
+  std::array<float, 4> x, y, z;
+};
+struct SliceOffsets {
+  alignas(64) std::array<float, 16> x;
+  alignas(64) std::array<float, 16> y;
+  alignas(64) std::array<float, 16> z;
+};
+
+/// What fusing a frame spends its time in, for one instruction set.
+struct FrameKernels {
+  void (*end_point_row)(const PixelRow& row, const PixelRowEnds& ends);
+  /// out[i] = least (largest) of upper and lower [2 i], [2 i + 1], for `count` cells.
+  void (*halve_min)(const float* upper, const float* lower, std::size_t count, float* out);
+  void (*halve_max)(const float* upper, const float* lower, std::size_t count, float* out);
+  /// Never wrong, not always decided.
+  CubeViews (*classify)(const FlatPyramid& pyramid, const CubeLanes& cubes);
+  /// Bit slice · 16 + i: the voxel's centre is seen nearer than the depth at its pixel.
+  std::uint64_t (*seen_free)(const FlatPyramid& pyramid, const VoxelLanes& voxels,
+                             const SliceOffsets& offsets);
+};
+
+/// `level` must be one the machine has.
+const FrameKernels& frame_kernels(SimdLevel level);
+
+}  // namespace canopeer

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+
+#include "canopeer/map/simd_level.h"
+
+// A kernel is one body, written as plain loops and inlined into one function per instruction set;
+// the compiler turns the loops into that set's vectors. Nothing is summed in another order and no
+// multiply-add is fused, so all of them give the same bits.
+
+#define CANOPEER_KERNEL_BODY [[gnu::always_inline]] inline
+#if defined(__x86_64__)
+#define CANOPEER_TARGET_AVX2 __attribute__((target("avx2")))
+#if defined(__clang__)
+#define CANOPEER_TARGET_AVX512 __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl")))
+#else
+#define CANOPEER_TARGET_AVX512 \
+  __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512")))
+#endif
+#else
+#define CANOPEER_TARGET_AVX2
+#define CANOPEER_TARGET_AVX512
+#endif

@@ -1,0 +1,33 @@
+#include "canopeer/map/simd_level.h"
+
+namespace canopeer {
+
+SimdLevel best_simd_level() {
+#if defined(__x86_64__)
+  static const SimdLevel best = [] {
+    __builtin_cpu_init();
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+        __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) {
+      return SimdLevel::avx512;
+    }
+    return __builtin_cpu_supports("avx2") ? SimdLevel::avx2 : SimdLevel::scalar;
+  }();
+  return best;
+#else
+  return SimdLevel::scalar;
+#endif
+}
+
+const char* simd_level_name(SimdLevel level) {
+  switch (level) {
+    case SimdLevel::avx512:
+      return "avx512";
+    case SimdLevel::avx2:
+      return "avx2";
+    case SimdLevel::scalar:
+      break;
+  }
+  return "scalar";
+}
+
+}  // namespace canopeer

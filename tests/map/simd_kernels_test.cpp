@@ -1,0 +1,233 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "ball_scene.h"
+#include "canopeer/map/distance_tile.h"
+#include "canopeer/map/frame_kernels.h"
+#include "canopeer/map/frontier_masks.h"
+#include "canopeer/map/log_odds_kernels.h"
+#include "same_map.h"
+
+namespace canopeer {
+namespace {
+
+// The levels beside the scalar one that this machine has.
+std::vector<SimdLevel> vector_levels() {
+  std::vector<SimdLevel> levels;
+  for (const SimdLevel level : kSimdLevels) {
+    if (level != SimdLevel::scalar && level <= best_simd_level()) levels.push_back(level);
+  }
+  return levels;
+}
+
+VoxelMask random_mask(Rng& rng, double share) {
+  VoxelMask mask;
+  for (std::uint64_t& slice : mask.slices) {
+    if (rng.chance(0.2)) continue;
+    for (int bit = 0; bit < 64; ++bit) slice |= std::uint64_t{rng.chance(share)} << bit;
+  }
+  return mask;
+}
+
+TEST(SimdKernels, RowsOfPixelsEndInTheSameVoxels) {
+  Rng rng(1, "rows");
+  const float strange[] = {0.0F,
+                           -0.0F,
+                           -1.0F,
+                           std::numeric_limits<float>::quiet_NaN(),
+                           std::numeric_limits<float>::infinity(),
+                           -std::numeric_limits<float>::infinity(),
+                           std::numeric_limits<float>::max(),
+                           std::numeric_limits<float>::denorm_min()};
+  for (int round = 0; round < 200; ++round) {
+    const std::size_t width = 1 + rng.index(70);
+    std::vector<float> depth(width);
+    std::vector<double> x(width), y(width), z(width), across2(width);
+    for (std::size_t u = 0; u < width; ++u) {
+      depth[u] = rng.chance(0.2) ? strange[rng.index(8)] : static_cast<float>(rng.uniform(0, 4));
+      x[u] = rng.uniform(-1, 1);
+      y[u] = rng.uniform(-1, 1);
+      z[u] = rng.uniform(-1, 1);
+      across2[u] = rng.uniform(0, 1);
+    }
+    PixelRow row;
+    row.width = width;
+    row.depth = depth.data();
+    row.across_x = x.data();
+    row.across_y = y.data();
+    row.across_z = z.data();
+    row.across2 = across2.data();
+    row.along = {rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)};
+    row.along2 = 1.0 + rng.uniform();
+    row.origin = {rng.uniform(-3, 3), rng.uniform(-3, 3), rng.uniform(-3, 3)};
+    row.max_range_m = 3.0;
+    row.resolution_m = 0.01;
+    row.clear_no_return = rng.chance(0.5);
+    struct Ends {
+      std::vector<float> free_depth;
+      std::vector<std::int32_t> x, y, z, is_end;
+    };
+    const auto project = [&](SimdLevel level) {
+      Ends ends{std::vector<float>(width), std::vector<std::int32_t>(width),
+                std::vector<std::int32_t>(width), std::vector<std::int32_t>(width),
+                std::vector<std::int32_t>(width)};
+      frame_kernels(level).end_point_row(row, {ends.free_depth.data(), ends.x.data(), ends.y.data(),
+                                               ends.z.data(), ends.is_end.data()});
+      return ends;
+    };
+    const Ends scalar = project(SimdLevel::scalar);
+    for (const SimdLevel level : vector_levels()) {
+      const Ends vector = project(level);
+      EXPECT_EQ(scalar.is_end, vector.is_end) << simd_level_name(level);
+      EXPECT_EQ(scalar.x, vector.x) << simd_level_name(level);
+      EXPECT_EQ(scalar.y, vector.y) << simd_level_name(level);
+      EXPECT_EQ(scalar.z, vector.z) << simd_level_name(level);
+      for (std::size_t u = 0; u < width; ++u) {
+        EXPECT_EQ(std::bit_cast<std::uint32_t>(scalar.free_depth[u]),
+                  std::bit_cast<std::uint32_t>(vector.free_depth[u]))
+            << simd_level_name(level) << " depth " << depth[u];
+      }
+    }
+  }
+}
+
+TEST(SimdKernels, LogOddsMoveByTheSameSteps) {
+  Rng rng(2, "log-odds");
+  LogOddsSteps steps;
+  steps.hit = 1735;
+  steps.miss = -830;
+  steps.min = -4081;
+  steps.max = 7119;
+  for (int round = 0; round < 300; ++round) {
+    steps.threshold = static_cast<std::int16_t>(rng.index(4000)) - 2000;
+    std::array<std::int16_t, kBlockVoxels> start;
+    for (std::int16_t& cell : start) {
+      cell = static_cast<std::int16_t>(steps.min + static_cast<int>(rng.index(11201)));
+    }
+    if (round % 10 == 0) start.fill(steps.min);
+    const VoxelMask hit = random_mask(rng, rng.uniform());
+    VoxelMask miss = random_mask(rng, rng.uniform());
+    miss -= hit;
+    const VoxelMask above = random_mask(rng, 0.5);
+    auto scalar_cells = start;
+    VoxelMask scalar_above = above;
+    log_odds_kernels(SimdLevel::scalar).step(scalar_cells.data(), hit, miss, steps, scalar_above);
+    auto scalar_missed = start;
+    const LogOddsRange range =
+        log_odds_kernels(SimdLevel::scalar).miss_all(scalar_missed.data(), steps);
+    EXPECT_EQ(range.min, *std::min_element(scalar_missed.begin(), scalar_missed.end()));
+    EXPECT_EQ(range.max, *std::max_element(scalar_missed.begin(), scalar_missed.end()));
+    for (const SimdLevel level : vector_levels()) {
+      auto cells = start;
+      VoxelMask now_above = above;
+      log_odds_kernels(level).step(cells.data(), hit, miss, steps, now_above);
+      EXPECT_EQ(cells, scalar_cells) << simd_level_name(level);
+      EXPECT_EQ(now_above, scalar_above) << simd_level_name(level);
+      auto missed = start;
+      const LogOddsRange vector_range = log_odds_kernels(level).miss_all(missed.data(), steps);
+      EXPECT_EQ(missed, scalar_missed) << simd_level_name(level);
+      EXPECT_EQ(vector_range.min, range.min);
+      EXPECT_EQ(vector_range.max, range.max);
+    }
+  }
+}
+
+// Depth pyramid, classification and voxel test, through what they are for.
+TEST(SimdKernels, FramesAreFusedIntoTheSameMap) {
+  for (const double resolution : {0.005, 0.02}) {
+    VoxelMapOptions options;
+    options.resolution_m = resolution;
+    VoxelMap scalar(options);
+    std::vector<VoxelMap> vector(vector_levels().size(), VoxelMap(options));
+    const BallScene scene = BallScene::random(3, 60);
+    Rng rng(3, "cameras");
+    for (int frame = 0; frame < 3; ++frame) {
+      const auto view =
+          scene.render(BallScene::random_camera(rng), CameraIntrinsics::from_fov(161, 117, 1.396));
+      FusionOptions fusion;
+      fusion.max_range_m = frame == 2 ? 1.1 : 3.0;
+      fusion.clear_no_return = frame == 2;
+      fusion.simd = SimdLevel::scalar;
+      const FuseResult expected = fuse(scalar, view.frame, view.roi, fusion);
+      for (std::size_t i = 0; i < vector.size(); ++i) {
+        fusion.simd = vector_levels()[i];
+        const FuseResult result = fuse(vector[i], view.frame, view.roi, fusion);
+        EXPECT_EQ(result.fused_points, expected.fused_points);
+        EXPECT_EQ(result.updated_voxels, expected.updated_voxels);
+        EXPECT_EQ(result.newly_known, expected.newly_known);
+        EXPECT_EQ(result.changed, expected.changed);
+      }
+    }
+    for (const VoxelMap& map : vector) expect_same_map(scalar, map);
+  }
+}
+
+// The classification only saves work: all that is free in a cube it calls free, nothing in one it
+// calls not free, as the voxel-by-voxel test sees it.
+TEST(SimdKernels, CubesAreClassifiedAsTheirVoxelsAre) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const BallScene scene = BallScene::random(seed, 60);
+    Rng rng(seed, "camera");
+    const auto view =
+        scene.render(BallScene::random_camera(rng), CameraIntrinsics::from_fov(160, 120, 1.396));
+    VoxelMap map;
+    fuse(map, view.frame, view.roi);
+    const Pose T_camera_world = view.frame.T_world_camera.inverse();
+    const CameraIntrinsics& k = view.frame.intrinsics;
+    std::int64_t border = 0, compared = 0;
+    for (int i = 0; i < 200000; ++i) {
+      const Vec3 p(rng.uniform(-0.5, 1.5), rng.uniform(-1.5, 1.5), rng.uniform(-1.2, 1.2));
+      const VoxelIndex voxel = voxel_at(p, 0.01);
+      if (map.occupancy(voxel) == Occupancy::occupied) continue;
+      const Vec3 c = T_camera_world * voxel_centre(voxel, 0.01);
+      const double u = k.fx * c.x() / c.z() + k.cx;
+      const double v = k.fy * c.y() / c.z() + k.cy;
+      bool free = false;
+      if (c.z() > 0 && u >= 0 && u < k.width && v >= 0 && v < k.height) {
+        const auto depth =
+            static_cast<double>(view.frame.depth.at(static_cast<int>(u), static_cast<int>(v)));
+        const double limit = 3.0 * c.z() / c.norm();
+        free = c.z() < depth && c.z() < limit;
+      }
+      ++compared;
+      border += free != (map.occupancy(voxel) == Occupancy::free);
+    }
+    // Rounding decides where a centre falls on the border of two pixels.
+    EXPECT_LE(border, compared / 1000) << "seed " << seed;
+  }
+}
+
+TEST(SimdKernels, DistanceTilesAreTheSame) {
+  Rng rng(5, "tiles");
+  for (const int halo : {1, 2}) {
+    const auto side = static_cast<std::size_t>(kTileBlocks + 2 * halo);
+    for (int round = 0; round < 6; ++round) {
+      std::vector<VoxelMask> blocks(side * side * side);
+      for (VoxelMask& mask : blocks) {
+        if (rng.chance(0.02 * round)) mask = random_mask(rng, 0.05);
+      }
+      const TileSurroundings around{blocks.data(), side, side * side, halo};
+      TileScratch scratch;
+      const auto scalar = tile_distance2(around, 7 * halo, scratch, SimdLevel::scalar);
+      for (const SimdLevel level : vector_levels()) {
+        EXPECT_EQ(tile_distance2(around, 7 * halo, scratch, level), scalar);
+      }
+    }
+  }
+}
+
+TEST(SimdKernels, FrontiersAreTheSame) {
+  const VoxelMap map = BallScene::map(4, 2);
+  for (const BlockKey key : map.block_keys()) {
+    const FrontierMasks scalar = frontier_masks(map, key, true, SimdLevel::scalar);
+    for (const SimdLevel level : vector_levels()) {
+      EXPECT_EQ(frontier_masks(map, key, true, level), scalar);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace canopeer
