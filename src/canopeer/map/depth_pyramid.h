@@ -8,12 +8,13 @@
 
 namespace canopeer {
 
-/// Range of depths in any rectangle of an image in constant time: each level holds minimum and
-/// maximum of 2 × 2 cells of the one below.
+/// Range of depths in any rectangle of an image in constant time: minima and maxima of square
+/// windows of 2, 4, 8 … pixels, each level made of four windows of the one below. (A sparse table
+/// in two dimensions: Bender & Farach-Colton 2000, here at every second pixel.)
 class DepthPyramid {
  public:
-  /// `depth` must have the size `k` says, at least one pixel and at most 2^15 on a side, hold no
-  /// NaN, and outlive the pyramid.
+  /// `depth` must have the size `k` says and at least one pixel, hold no NaN, and outlive the
+  /// pyramid.
   DepthPyramid(const DepthImage& depth, const CameraIntrinsics& k, const FrameKernels& kernels);
   DepthPyramid(const DepthPyramid&) = delete;
   DepthPyramid& operator=(const DepthPyramid&) = delete;

@@ -1,6 +1,8 @@
 #include "canopeer/map/distance_tile.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <cstring>
 
 #include "canopeer/map/kernel_targets.h"
@@ -27,8 +29,19 @@ using TileRow = std::int16_t __attribute__((vector_size(kSide * sizeof(std::int1
     (best) = candidate < (best) ? candidate : (best);  \
   } while (false)
 
-// out[j] = min over |k| ≤ reach of rows[(j + k) · stride] + gap²(k), for `count` rows that are
-// `stride` rows apart; rows without a mark hold nothing nearer than `far`.
+// Some lane is larger than `limit`.
+CANOPEER_KERNEL_BODY bool any_above(const TileRow& row, std::int16_t limit) {
+  const TileRow above = row > limit;
+  std::uint64_t words[sizeof(TileRow) / 8];
+  std::memcpy(words, &above, sizeof words);
+  std::uint64_t any = 0;
+  for (const std::uint64_t word : words) any |= word;
+  return any != 0;
+}
+
+// out[j] = min over |k| ≤ reach of rows[(j + k) · stride] + gap²(k), for kSide rows that are
+// `stride` rows apart; rows without a mark hold nothing nearer than `far`. From the middle
+// outwards: what is farther than all that was found changes nothing.
 CANOPEER_KERNEL_BODY void relax_rows_body(const std::int16_t* rows, const std::uint8_t* used,
                                           std::size_t stride, int pad, int reach, std::int16_t far,
                                           std::int16_t* out, std::uint8_t* out_used,
@@ -36,11 +49,16 @@ CANOPEER_KERNEL_BODY void relax_rows_body(const std::int16_t* rows, const std::u
   for (std::size_t j = 0; j < kSide; ++j) {
     TileRow best = TileRow{} + far;
     std::uint8_t any = 0;
-    for (int k = -reach; k <= reach; ++k) {
-      const std::size_t row = (j + static_cast<std::size_t>(pad + k)) * stride;
-      if (used[row] == 0) continue;
+    for (int k = 0; k <= reach; ++k) {
+      const std::int16_t step = gap2(k);
+      const std::size_t middle = j + static_cast<std::size_t>(pad);
+      const std::size_t after = (middle + static_cast<std::size_t>(k)) * stride;
+      const std::size_t before = (middle - static_cast<std::size_t>(k)) * stride;
+      if ((used[after] | used[before]) == 0) continue;
       any = 1;
-      CANOPEER_RELAX(best, rows + row * kSide, gap2(k));
+      if (k > 1 && !any_above(best, step)) break;
+      if (used[after] != 0) CANOPEER_RELAX(best, rows + after * kSide, step);
+      if (used[before] != 0) CANOPEER_RELAX(best, rows + before * kSide, step);
     }
     std::memcpy(out + j * out_stride * kSide, &best, sizeof best);
     if (out_used != nullptr) out_used[j * out_stride] = any;
@@ -50,7 +68,12 @@ CANOPEER_KERNEL_BODY void relax_rows_body(const std::int16_t* rows, const std::u
 CANOPEER_KERNEL_BODY void relax_row_body(const std::int16_t* padded, int pad, int reach,
                                          std::int16_t far, std::int16_t* out) {
   TileRow best = TileRow{} + far;
-  for (int k = -reach; k <= reach; ++k) CANOPEER_RELAX(best, padded + (pad + k), gap2(k));
+  for (int k = 0; k <= reach; ++k) {
+    const std::int16_t step = gap2(k);
+    if (k > 1 && !any_above(best, step)) break;
+    CANOPEER_RELAX(best, padded + (pad + k), step);
+    CANOPEER_RELAX(best, padded + (pad - k), step);
+  }
   std::memcpy(out, &best, sizeof best);
 }
 
@@ -84,6 +107,17 @@ const TileKernels& tile_kernels(SimdLevel level) {
                                     : kTile_scalar;
 }
 
+// Per value of 8 bits: all ones in the lanes whose bit is not set.
+constexpr auto kNotSet = [] {
+  std::array<std::array<std::int16_t, kBlockSide>, 256> lanes{};
+  for (unsigned bits = 0; bits < 256; ++bits) {
+    for (unsigned x = 0; x < kBlockSide; ++x) {
+      lanes[bits][x] = (bits >> x & 1U) != 0 ? std::int16_t{0} : std::int16_t{-1};
+    }
+  }
+  return lanes;
+}();
+
 // 0 where occupied, `far` elsewhere, along the padded row (y, z); false: all far.
 bool expand_row(const TileSurroundings& around, int y, int z, std::int16_t far,
                 std::vector<std::int16_t>& padded) {
@@ -100,9 +134,9 @@ bool expand_row(const TileSurroundings& around, int y, int z, std::int16_t far,
   for (std::size_t b = 0; b < count; ++b) any |= row_bits(b);
   if (any == 0) return false;
   for (std::size_t b = 0; b < count; ++b) {
-    const unsigned bits = row_bits(b);
-    for (unsigned x = 0; x < kBlockSide; ++x) {
-      padded[b * kBlockSide + x] = (bits >> x & 1U) != 0 ? std::int16_t{0} : far;
+    const auto& lanes = kNotSet[row_bits(b)];
+    for (std::size_t x = 0; x < kBlockSide; ++x) {
+      padded[b * kBlockSide + x] = static_cast<std::int16_t>(lanes[x] & far);
     }
   }
   return true;

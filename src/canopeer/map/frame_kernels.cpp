@@ -69,6 +69,20 @@ CANOPEER_KERNEL_BODY void halve_max_body(const float* upper, const float* lower,
   }
 }
 
+CANOPEER_KERNEL_BODY void widen_min_body(const float* upper, const float* lower, std::size_t shift,
+                                         std::size_t count, float* __restrict out) {
+  for (std::size_t i = 0; i < count; ++i) {
+    out[i] = least(least(upper[i], upper[i + shift]), least(lower[i], lower[i + shift]));
+  }
+}
+
+CANOPEER_KERNEL_BODY void widen_max_body(const float* upper, const float* lower, std::size_t shift,
+                                         std::size_t count, float* __restrict out) {
+  for (std::size_t i = 0; i < count; ++i) {
+    out[i] = most(most(upper[i], upper[i + shift]), most(lower[i], lower[i + shift]));
+  }
+}
+
 // Bytes that are 0 or 1 to bits.
 template <std::size_t kCount>
 CANOPEER_KERNEL_BODY std::uint64_t pack_bits(const std::uint8_t* flags) {
@@ -114,33 +128,26 @@ CANOPEER_KERNEL_BODY CubeViews classify_body(const FlatPyramid& pyramid, const C
     const auto v0 = static_cast<std::int32_t>(least(most(v_low, 0.0F), height - 1.0F));
     const auto u1 = static_cast<std::int32_t>(least(most(u_high, 0.0F), width - 1.0F));
     const auto v1 = static_cast<std::int32_t>(least(most(v_high, 0.0F), height - 1.0F));
-    // The level where the rectangle spans at most 3 cells each way: floor(log2(longest side)), read
-    // off the exponent.
-    const std::int32_t extent = most(most(u1 - u0, v1 - v0), 2);
-    const std::int32_t exponent =
-        (std::bit_cast<std::int32_t>(static_cast<float>(extent)) >> 23) - 127;
-    const std::int32_t level = least(exponent, pyramid.top);
-    const std::int32_t cells_wide = pyramid.cells_wide[static_cast<std::size_t>(level)];
-    const std::int32_t offset = pyramid.offset[static_cast<std::size_t>(level)];
-    const std::int32_t row0 = offset + (v0 >> level) * cells_wide;
-    const std::int32_t row2 = offset + (v1 >> level) * cells_wide;
-    const std::int32_t row1 = least(row0 + cells_wide, row2);
-    const std::int32_t column0 = u0 >> level;
-    const std::int32_t column2 = u1 >> level;
-    const std::int32_t column1 = least(column0 + 1, column2);
-    const auto low_of = [&](std::int32_t r) {
-      return least(least(pyramid.min[r + column0], pyramid.min[r + column1]),
-                   pyramid.min[r + column2]);
-    };
-    const auto high_of = [&](std::int32_t r) {
-      return most(most(pyramid.max[r + column0], pyramid.max[r + column1]),
-                  pyramid.max[r + column2]);
-    };
-    const float nearest = least(least(low_of(row0), low_of(row1)), low_of(row2));
-    const float farthest = most(most(high_of(row0), high_of(row1)), high_of(row2));
-    const bool none_free = behind | (apart & (outside | (z_low > farthest + margin)));
+    // The smallest windows of which two overlapping ones span the longer side, wherever they may
+    // start: floor(log2(pixels + 1)), read off the exponent.
+    const std::int32_t pixels = most(u1 - u0, v1 - v0) + 1;
+    const std::int32_t wanted =
+        (std::bit_cast<std::int32_t>(static_cast<float>(pixels + 1)) >> 23) - 127;
+    const bool covered = wanted <= pyramid.top;
+    const std::int32_t level = least(wanted, pyramid.top);
+    const std::int32_t side = 1 << level;
+    const std::int32_t column0 = u0 >> 1;
+    const std::int32_t column1 = most(column0, (u1 - side + 2) >> 1);
+    const std::int32_t offset = (level - 1) * pyramid.level_size;
+    const std::int32_t row0 = offset + (v0 >> 1) * pyramid.wide;
+    const std::int32_t row1 = offset + most(v0 >> 1, (v1 - side + 2) >> 1) * pyramid.wide;
+    const float nearest = least(least(pyramid.min[row0 + column0], pyramid.min[row0 + column1]),
+                                least(pyramid.min[row1 + column0], pyramid.min[row1 + column1]));
+    const float farthest = most(most(pyramid.max[row0 + column0], pyramid.max[row0 + column1]),
+                                most(pyramid.max[row1 + column0], pyramid.max[row1 + column1]));
+    const bool none_free = behind | (apart & (outside | (covered & (z_low > farthest + margin))));
     none[i] = none_free ? 1 : 0;
-    all[i] = ((none_free ^ true) & apart & inside & (z_high < nearest - margin)) ? 1 : 0;
+    all[i] = ((none_free ^ true) & apart & inside & covered & (z_high < nearest - margin)) ? 1 : 0;
   }
   return {pack_bits<CubeLanes::kMax>(none), pack_bits<CubeLanes::kMax>(all)};
 }
@@ -332,11 +339,20 @@ CANOPEER_TARGET_AVX512 std::uint64_t seen_free_avx512(const FlatPyramid& camera,
                                float* out) {                                              \
     halve_max_body(upper, lower, count, out);                                             \
   }                                                                                       \
+  TARGET void widen_min_##NAME(const float* upper, const float* lower, std::size_t shift, \
+                               std::size_t count, float* out) {                           \
+    widen_min_body(upper, lower, shift, count, out);                                      \
+  }                                                                                       \
+  TARGET void widen_max_##NAME(const float* upper, const float* lower, std::size_t shift, \
+                               std::size_t count, float* out) {                           \
+    widen_max_body(upper, lower, shift, count, out);                                      \
+  }                                                                                       \
   TARGET CubeViews classify_##NAME(const FlatPyramid& pyramid, const CubeLanes& cubes) {  \
     return classify_body(pyramid, cubes);                                                 \
   }                                                                                       \
-  constexpr FrameKernels kKernels_##NAME = {end_point_row_##NAME, halve_min_##NAME,       \
-                                            halve_max_##NAME, classify_##NAME, seen_free_##NAME};
+  constexpr FrameKernels kKernels_##NAME = {                                              \
+      end_point_row_##NAME, halve_min_##NAME, halve_max_##NAME, widen_min_##NAME,         \
+      widen_max_##NAME,     classify_##NAME,  seen_free_##NAME};
 
 CANOPEER_KERNELS(scalar, )
 #if defined(__x86_64__)

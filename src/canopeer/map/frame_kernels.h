@@ -34,19 +34,20 @@ struct PixelRowEnds {
   std::int32_t* is_end = nullptr;  ///< 1: the pixel has an end point
 };
 
-/// A pinhole camera in single precision, and the smallest and largest depths of cells of 2^l × 2^l
-/// pixels (level l ≥ 1), all levels in one array.
+/// A pinhole camera in single precision, and the smallest and largest depths of windows of 2^l ×
+/// 2^l pixels (levels 1 … top) that start at every second pixel: `wide` windows a row, all levels
+/// in one array, `level_size` items apart. Any rectangle up to 2^(top + 1) − 2 pixels wide is
+/// covered nearly tightly by four windows that overlap.
 struct FlatPyramid {
-  static constexpr int kMaxLevels = 16;
   int width = 0, height = 0;
   float fx = 0, fy = 0, cx = 0, cy = 0;
   const float* depth = nullptr;  ///< level 0, row-major
   const float* min = nullptr;
   const float* max = nullptr;
-  int top = 1;                                        ///< the level of one cell
-  std::array<std::int32_t, kMaxLevels> offset{};      ///< of a level's first cell
-  std::array<std::int32_t, kMaxLevels> cells_wide{};  ///< of a level's rows
-  float largest = 0;                                  ///< depth of all
+  int top = 1;
+  std::int32_t wide = 0;        ///< windows a row
+  std::int32_t level_size = 0;  ///< windows a level; level 1 starts at 0
+  float largest = 0;            ///< depth of all
 };
 
 /// Up to 64 cubes of one size, by the box around their voxels' centres in the camera frame, m.
@@ -83,6 +84,11 @@ struct FrameKernels {
   /// out[i] = least (largest) of upper and lower [2 i], [2 i + 1], for `count` cells.
   void (*halve_min)(const float* upper, const float* lower, std::size_t count, float* out);
   void (*halve_max)(const float* upper, const float* lower, std::size_t count, float* out);
+  /// out[i] = least (largest) of upper and lower [i], [i + shift], for `count` items.
+  void (*widen_min)(const float* upper, const float* lower, std::size_t shift, std::size_t count,
+                    float* out);
+  void (*widen_max)(const float* upper, const float* lower, std::size_t shift, std::size_t count,
+                    float* out);
   /// Never wrong, not always decided.
   CubeViews (*classify)(const FlatPyramid& pyramid, const CubeLanes& cubes);
   /// Bit slice · 16 + i: the voxel's centre is seen nearer than the depth at its pixel.

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -31,26 +32,30 @@ struct CubePattern {
     for (std::size_t i = 0; i < count; ++i) {
       const Vec3 at(static_cast<double>(i % n), static_cast<double>(i / n % n),
                     static_cast<double>(i / n / n));
-      offset.push_back((step * (at.array() + 0.5).matrix()).cast<float>());
+      const Eigen::Vector3f offset = (step * (at.array() + 0.5).matrix()).cast<float>();
+      x[i] = offset.x();
+      y[i] = offset.y();
+      z[i] = offset.z();
     }
-    half =
+    const Eigen::Vector3f box =
         (R_camera_world.cwiseAbs() * Vec3::Constant(0.5 * (side - 1) * resolution_m)).cast<float>();
+    half = {box.x(), box.y(), box.z()};
   }
 
-  // The cubes when the first voxel's corner lies at `corner`.
-  void place(const Eigen::Vector3f& corner, CubeLanes& lanes) const {
-    lanes.count = count;
-    lanes.half = {half.x(), half.y(), half.z()};
+  // The cubes when the first voxel's corner lies at `corner`, as lanes first, first + 1 …
+  void place(const Eigen::Vector3f& corner, CubeLanes& lanes, std::size_t first) const {
     for (std::size_t i = 0; i < count; ++i) {
-      lanes.x[i] = corner.x() + offset[i].x();
-      lanes.y[i] = corner.y() + offset[i].y();
-      lanes.z[i] = corner.z() + offset[i].z();
+      lanes.x[first + i] = corner.x() + x[i];
+      lanes.y[first + i] = corner.y() + y[i];
+      lanes.z[first + i] = corner.z() + z[i];
     }
+    lanes.count = first + count;
+    lanes.half = half;
   }
 
   std::size_t count = 0;
-  std::vector<Eigen::Vector3f> offset;
-  Eigen::Vector3f half;
+  std::array<float, CubeLanes::kMax> x{}, y{}, z{};
+  std::array<float, 3> half{};
 };
 
 // What a camera sees of the map's chunks, blocks and voxels. All lengths in camera coordinates are
@@ -75,6 +80,12 @@ class Frustum {
       slice_.y[static_cast<std::size_t>(i)] = static_cast<float>(offset.y());
       slice_.z[static_cast<std::size_t>(i)] = static_cast<float>(offset.z());
     }
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 4; ++column) {
+        rows_[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] =
+            T_camera_world_.matrix()(row, column);
+      }
+    }
   }
 
   // First voxels of the chunks that could hold free space.
@@ -87,7 +98,10 @@ class Frustum {
     return (T_camera_world_ * (corner.cast<double>() * resolution_m_)).cast<float>();
   }
   void find_in_chunk(const VoxelIndex& corner, FreeSpace& out) const;
-  [[nodiscard]] VoxelMask free_in_block(const VoxelIndex& corner) const;
+  // Appends what of some blocks (at most 8) is free, looked at in half blocks.
+  void find_in_blocks(std::span<const BlockKey> keys, FreeSpace& out) const;
+  [[nodiscard]] VoxelMask free_in_block(const VoxelIndex& corner, unsigned none_free,
+                                        unsigned all_free) const;
   [[nodiscard]] std::uint64_t free_in_part(const VoxelIndex& corner) const;
 
   const FlatPyramid& pyramid_;
@@ -100,6 +114,7 @@ class Frustum {
   CubePattern blocks_;
   CubePattern parts_;
   SliceOffsets slice_;
+  std::array<std::array<double, 4>, 3> rows_;  // of T_camera_world
 };
 
 std::vector<VoxelIndex> Frustum::chunks() const {
@@ -125,14 +140,8 @@ std::vector<VoxelIndex> Frustum::chunks() const {
 
 void Frustum::find(std::span<const VoxelIndex> chunks, FreeSpace& out) const {
   CubeLanes lanes;
-  chunk_.place(Eigen::Vector3f::Zero(), lanes);
-  lanes.count = (chunks.size() + 7) / 8 * 8;
-  const Eigen::Vector3f centre = chunk_.offset[0];
-  for (std::size_t i = 0; i < lanes.count; ++i) {
-    const Eigen::Vector3f at = in_camera(chunks[std::min(i, chunks.size() - 1)]) + centre;
-    lanes.x[i] = at.x();
-    lanes.y[i] = at.y();
-    lanes.z[i] = at.z();
+  for (std::size_t i = 0; i < (chunks.size() + 7) / 8 * 8; ++i) {
+    chunk_.place(in_camera(chunks[std::min(i, chunks.size() - 1)]), lanes, i);
   }
   const CubeViews views = kernels_.classify(pyramid_, lanes);
   for (std::size_t i = 0; i < chunks.size(); ++i) {
@@ -150,9 +159,11 @@ void Frustum::find(std::span<const VoxelIndex> chunks, FreeSpace& out) const {
 
 void Frustum::find_in_chunk(const VoxelIndex& corner, FreeSpace& out) const {
   CubeLanes lanes;
-  blocks_.place(in_camera(corner), lanes);
+  blocks_.place(in_camera(corner), lanes, 0);
   const CubeViews views = kernels_.classify(pyramid_, lanes);
   const BlockKey chunk_key = block_key(corner);
+  std::array<BlockKey, CubeLanes::kMax / 8> mixed;
+  std::size_t count = 0;
   for (std::uint64_t bits = ~views.none_free; bits != 0; bits &= bits - 1) {
     const auto place = static_cast<std::size_t>(std::countr_zero(bits));
     const BlockKey key = BlockDirectory::key_in_chunk(chunk_key, place);
@@ -160,47 +171,75 @@ void Frustum::find_in_chunk(const VoxelIndex& corner, FreeSpace& out) const {
       out.whole.push_back(key);
       continue;
     }
-    const VoxelMask free = free_in_block(block_origin(key));
+    mixed[count++] = key;
+    if (count < mixed.size()) continue;
+    find_in_blocks(mixed, out);
+    count = 0;
+  }
+  find_in_blocks(std::span(mixed).first(count), out);
+}
+
+void Frustum::find_in_blocks(std::span<const BlockKey> keys, FreeSpace& out) const {
+  if (keys.empty()) return;
+  CubeLanes lanes;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    parts_.place(in_camera(block_origin(keys[i])), lanes, i * parts_.count);
+  }
+  const CubeViews views = kernels_.classify(pyramid_, lanes);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const auto none_free = static_cast<unsigned>(views.none_free >> (8 * i) & 0xFF);
+    const auto all_free = static_cast<unsigned>(views.all_free >> (8 * i) & 0xFF);
+    if (none_free == 0xFF) continue;
+    const VoxelMask free = free_in_block(block_origin(keys[i]), none_free, all_free);
     if (free.full()) {
-      out.whole.push_back(key);
+      out.whole.push_back(keys[i]);
     } else if (free.any()) {
-      out.parts.push_back({key, free});
+      out.parts.push_back({keys[i], free});
     }
   }
 }
 
-VoxelMask Frustum::free_in_block(const VoxelIndex& corner) const {
+// Bits of half blocks: x, y, z of the half from the lowest bit on.
+VoxelMask Frustum::free_in_block(const VoxelIndex& corner, unsigned none_free,
+                                 unsigned all_free) const {
   VoxelMask free;
-  CubeLanes lanes;
-  parts_.place(in_camera(corner), lanes);
-  const CubeViews views = kernels_.classify(pyramid_, lanes);
-  for (std::size_t i = 0; i < parts_.count; ++i) {
-    if ((views.none_free >> i & 1) != 0) continue;
-    const auto child = static_cast<int>(i);
-    const VoxelIndex part = corner + VoxelIndex(child & 1, child >> 1 & 1, child >> 2) * kPartSide;
-    const std::uint64_t seen =
-        (views.all_free >> i & 1) != 0 ? ~std::uint64_t{0} : free_in_part(part);
+  for (int i = 0; i < 8; ++i) {
+    if ((none_free >> i & 1) != 0) continue;
+    const VoxelIndex part = corner + VoxelIndex(i & 1, i >> 1 & 1, i >> 2) * kPartSide;
+    const std::uint64_t seen = (all_free >> i & 1) != 0 ? ~std::uint64_t{0} : free_in_part(part);
+    const std::uint64_t first = VoxelMask::bit_of(part);
     for (int z = 0; z < kPartSide; ++z) {
       // Rows of 4 bits spread to the 8 a mask has.
       const std::uint64_t rows = seen >> (16 * z) & 0xFFFF;
       const std::uint64_t spread =
           (rows & 0xF) | (rows & 0xF0) << 4 | (rows & 0xF00) << 8 | (rows & 0xF000) << 12;
-      free.slices[static_cast<std::size_t>(VoxelMask::slice_of(part) + z)] |=
-          spread * VoxelMask::bit_of(part);
+      free.slices[static_cast<std::size_t>(VoxelMask::slice_of(part) + z)] |= spread * first;
     }
   }
   return free;
 }
 
 std::uint64_t Frustum::free_in_part(const VoxelIndex& corner) const {
-  VoxelLanes voxels;
-  for (std::size_t z = 0; z < kPartSide; ++z) {
-    const VoxelIndex start = corner + VoxelIndex(0, 0, static_cast<int>(z));
-    const Eigen::Vector3f p = (T_camera_world_ * voxel_centre(start, resolution_m_)).cast<float>();
-    voxels.x[z] = p.x();
-    voxels.y[z] = p.y();
-    voxels.z[z] = p.z();
+  const auto centre = [&](int axis, int steps) {
+    return (corner[axis] + steps + 0.5) * resolution_m_;
+  };
+  const double x = centre(0, 0);
+  const double y = centre(1, 0);
+  std::array<double, kPartSide> z;
+  for (std::size_t slice = 0; slice < kPartSide; ++slice) {
+    z[slice] = centre(2, static_cast<int>(slice));
   }
+  const auto project = [&](std::size_t axis, std::array<float, kPartSide>& out) {
+    const auto& row = rows_[axis];
+    const double across = row[0] * x + row[1] * y;
+    for (std::size_t slice = 0; slice < kPartSide; ++slice) {
+      out[slice] = static_cast<float>(across + row[2] * z[slice] + row[3]);
+    }
+  };
+  VoxelLanes voxels;
+  project(0, voxels.x);
+  project(1, voxels.y);
+  project(2, voxels.z);
   return kernels_.seen_free(pyramid_, voxels, slice_);
 }
 
