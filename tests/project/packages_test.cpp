@@ -16,7 +16,7 @@ using testing_support::source_root;
 
 struct HeaderOrigin {
   std::string_view prefix;   ///< of what stands between the brackets
-  std::string_view package;  ///< of Debian; empty: the C library
+  std::string_view package;  ///< of Debian; empty: the C library or the compiler
 };
 
 /// Where the headers we use come from.
@@ -53,6 +53,7 @@ constexpr HeaderOrigin kOrigins[] = {
     {"benchmark/", "libbenchmark-dev"},
     {"sys/", ""},
     {"unistd.h", ""},
+    {"immintrin.h", ""},
     {"fcntl.h", ""},
     {"poll.h", ""},
     {"dlfcn.h", ""},

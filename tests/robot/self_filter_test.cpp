@@ -106,7 +106,7 @@ TEST(SelfFilter, TakesOutThePixelsThatShowTheRobotAndNoOthers) {
   const SelfFilter filter(robot);
   Rng rng(1, "self filter");
   std::int64_t shown = 0, kept = 0;
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 5; ++i) {
     const Configuration q = random_configuration(rng, robot);
     const Vec3 base = robot.T_world_base({}).translation();
     const Vec3 from =
