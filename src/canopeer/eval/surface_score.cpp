@@ -71,14 +71,16 @@ class PointGrid {
 
 std::vector<Point> fruit_surface_points(const Scene& scene, bool counted_only, double spacing_m) {
   std::vector<Point> points;
-  for (const ScenePart& part : scene.parts) {
-    if (part.kind != PartClass::fruit || part.fruit < 0) continue;
-    if (counted_only && !scene.fruits[static_cast<std::size_t>(part.fruit)].counted) continue;
+  scene.for_each_part([&](const ScenePart& part, const Pose& T, const SceneInstance* copy) {
+    if (part.kind != PartClass::fruit || part.fruit < 0) return;
+    const int fruit = part.fruit + (copy == nullptr ? 0 : copy->first_fruit);
+    if (counted_only && !scene.fruits[static_cast<std::size_t>(fruit)].counted) return;
+    const Eigen::Isometry3f placed = T.cast<float>();
     for (const auto& t : part.mesh.triangles) {
       const auto& v = part.mesh.vertices;
-      sample(v[t[0]], v[t[1]], v[t[2]], spacing_m, points);
+      sample(placed * v[t[0]], placed * v[t[1]], placed * v[t[2]], spacing_m, points);
     }
-  }
+  });
   return points;
 }
 
