@@ -11,7 +11,7 @@
 #include "canopeer/base/rng.h"
 #include "canopeer/fruit/fruit_map.h"
 #include "canopeer/render/renderer.h"
-#include "canopeer/scene/row_world.h"
+#include "canopeer/scene/worlds.h"
 
 namespace canopeer {
 namespace {

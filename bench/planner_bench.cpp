@@ -335,7 +335,7 @@ void replan(benchmark::State& state) {
       WorkMeter work;
       state.ResumeTiming();
       const double begin_s = cpu_now_s();
-      const Detection seen = detector.detect(frame);
+      const Detection seen = detector.detect(frame).value();
       MapChange change;
       change.blocks = fuse(map, frame, seen.fruit).changed;
       const double fused_s = cpu_now_s();
