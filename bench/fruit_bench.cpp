@@ -99,7 +99,8 @@ const Row& row() {
           const Vec3 from(0.2 * side, y, z + 0.15);
           const Vec3 to(0.8 * side, y, z);
           shoot(from, to, r.first, r.first_fruit);
-          const Vec3 off(rng.uniform(-0.08, 0.08), rng.uniform(-0.15, 0.15), rng.uniform(-0.1, 0.1));
+          const Vec3 off(rng.uniform(-0.08, 0.08), rng.uniform(-0.15, 0.15),
+                         rng.uniform(-0.1, 0.1));
           shoot(from + off, to, r.next, r.next_fruit);
         }
       }

@@ -18,7 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-double metres_of(const std::string& unit) { return unit == "mm" ? 1e-3 : unit == "cm" ? 1e-2 : 1.0; }
+double metres_of(const std::string& unit) {
+  return unit == "mm" ? 1e-3 : unit == "cm" ? 1e-2 : 1.0;
+}
 
 /// As points of one surface, for the files that meshes go into.
 SurfaceMesh points_of(const CloudFruits& fruits) {
@@ -103,8 +105,8 @@ void fruit_fit(const FruitFitArguments& arguments) {
   std::printf("fruits            %zu in %zu points\n", fitted->fruits.size(),
               file.cloud.points.size());
   for (const FruitEstimate& f : fitted->fruits) {
-    std::printf("  %3d  at %.3f %.3f %.3f m  %.0f ± %.0f cm³  %.0f %% seen  confidence %.2f\n", f.id,
-                f.centre.x(), f.centre.y(), f.centre.z(), f.volume_cm3, f.volume_sd_cm3,
+    std::printf("  %3d  at %.3f %.3f %.3f m  %.0f ± %.0f cm³  %.0f %% seen  confidence %.2f\n",
+                f.id, f.centre.x(), f.centre.y(), f.centre.z(), f.volume_cm3, f.volume_sd_cm3,
                 100.0 * f.seen_share, f.confidence);
   }
   std::printf("results           %s\n", arguments.out.c_str());

@@ -22,9 +22,9 @@ void read_colour(YamlMap& detector, ColorDetectorOptions& o) {
     window.hue_high_deg = map.required_number("hue_high_deg", {-180.0, 180.0});
     window.min_saturation = map.number("min_saturation", window.min_saturation, {0.0, 1.0});
     window.min_value = map.number("min_value", window.min_value, {0.0, 1.0});
-    window.min_saturation_at_fruit = map.number(
-        "min_saturation_at_fruit", std::min(window.min_saturation, window.min_saturation_at_fruit),
-        {0.0, 1.0});
+    window.min_saturation_at_fruit =
+        map.number("min_saturation_at_fruit",
+                   std::min(window.min_saturation, window.min_saturation_at_fruit), {0.0, 1.0});
     o.windows.push_back(window);
   }
   o.opening_radius_px = detector.integer("opening_radius_px", o.opening_radius_px, 0, 20);
@@ -56,7 +56,8 @@ void read_network(YamlMap& detector, const std::filesystem::path& directory,
   for (const std::string& name : names) {
     const PixelLabel label = label_named(name);
     if (label == PixelLabel::background && name != "background") {
-      detector.complain("classes", "expected background, green, turning or ripe, found '" + name + "'");
+      detector.complain("classes",
+                        "expected background, green, turning or ripe, found '" + name + "'");
     }
     o.classes.push_back(label);
   }

@@ -25,7 +25,8 @@ void read_fruit(YamlMap& file, FruitMapOptions& o) {
     row.name = map.required_text("name");
     row.start = {map.required_number("x_m", {-1e4, 1e4}), map.required_number("y_m", {-1e4, 1e4}),
                  map.number("z_m", 0.0, {-100.0, 100.0})};
-    const double heading = map.number("heading_deg", 90.0, {-360.0, 360.0}) * std::numbers::pi / 180.0;
+    const double heading =
+        map.number("heading_deg", 90.0, {-360.0, 360.0}) * std::numbers::pi / 180.0;
     row.direction = {std::cos(heading), std::sin(heading), 0.0};
     o.rows.push_back(row);
   }

@@ -12,7 +12,7 @@ namespace canopeer {
 /// and bright enough.
 struct ColorWindow {
   PixelLabel label = PixelLabel::ripe_fruit;
-  double hue_low_deg = -14.0;    ///< red is 0°; in [−180, hue_high_deg]
+  double hue_low_deg = -14.0;  ///< red is 0°; in [−180, hue_high_deg]
   double hue_high_deg = 14.5;
   double min_saturation = 0.78;  ///< HSV, 0 … 1; dry leaves and clay are paler
   double min_value = 0.16;       ///< HSV, 0 … 1; below it hue is noise
@@ -23,8 +23,8 @@ struct ColorWindow {
 /// Blobs of such pixels are cleaned by morphology and judged by their size in the world.
 struct ColorDetectorOptions {
   /// Turning fruits are orange (19°). Green ones start at 50°, where leaves are too.
-  std::vector<ColorWindow> windows = {
-      {}, {PixelLabel::turning_fruit, 14.5, 29.0, 0.78, 0.16, 0.50}};
+  std::vector<ColorWindow> windows = {{},
+                                      {PixelLabel::turning_fruit, 14.5, 29.0, 0.78, 0.16, 0.50}};
   int opening_radius_px = 1;       ///< removes threads and specks; 0: off
   int closing_radius_px = 2;       ///< closes pinholes; 0: off
   int min_blob_px = 12;            ///< smaller blobs are dropped

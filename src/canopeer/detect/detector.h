@@ -1,7 +1,6 @@
 #pragma once
 
 #include "canopeer/base/expected.h"
-
 #include "canopeer/sensing/image.h"
 #include "canopeer/sensing/rgbd_frame.h"
 
@@ -9,7 +8,8 @@ namespace canopeer {
 
 /// Which pixels of a frame show a fruit. All images have the frame's size.
 struct Detection {
-  Image<PixelLabel> label;  ///< what each pixel shows, green fruits too where the detector knows them
+  Image<PixelLabel>
+      label;   ///< what each pixel shows, green fruits too where the detector knows them
   Mask fruit;  ///< 0: no fruit that counts; else the PixelLabel (turning or ripe) as a number
   Image<float> confidence;  ///< 0 … 1 that the label is right; 0 on the background
 };

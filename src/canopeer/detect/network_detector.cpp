@@ -96,8 +96,7 @@ Expected<std::unique_ptr<NetworkDetector>> NetworkDetector::make(
     return fail(options.model.string() + ": not an ONNX model that can be read: " + reason(error));
   }
   if (network->net.empty()) return fail(options.model.string() + ": holds no network");
-  const auto trial =
-      network->scores(ColorImage(options.input_width_px, options.input_height_px));
+  const auto trial = network->scores(ColorImage(options.input_width_px, options.input_height_px));
   if (!trial) return tl::unexpected(trial.error());
   const int classes = static_cast<int>(options.classes.size());
   if (trial->dims != 4 || trial->size[0] != 1 || trial->size[1] != classes ||

@@ -13,7 +13,7 @@ struct NetworkDetectorOptions {
   std::filesystem::path model;  ///< ONNX file
   int input_width_px = 640;     ///< images are scaled to what the model was made for
   int input_height_px = 480;
-  double scale = 1.0 / 255.0;  ///< input = (pixel − mean) · scale
+  double scale = 1.0 / 255.0;                  ///< input = (pixel − mean) · scale
   std::vector<double> mean = {0.0, 0.0, 0.0};  ///< red, green, blue, grey levels
   bool bgr = false;                            ///< the model wants blue first
   /// What the model's classes mean, in the order of its output channels.

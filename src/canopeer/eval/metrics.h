@@ -33,18 +33,18 @@ struct RunMetrics {
   double auc = 0.0;  ///< mean of detected / fruits_total over the mission time; 0 without fruits
   /// Share of the counted fruits' true surface that was seen; needs the seen surface.
   std::optional<double> roi_surface_coverage;
-  std::optional<double> volume_error_mean;     ///< |V − V*| / V* over the `detected` pairs
-  std::optional<double> centre_error_mean_m;   ///< over the `detected` pairs
+  std::optional<double> volume_error_mean;    ///< |V − V*| / V* over the `detected` pairs
+  std::optional<double> centre_error_mean_m;  ///< over the `detected` pairs
   // Of the `detected` fruits at least half of whose true surface was seen.
   std::optional<int> fruits_half_seen;
   std::optional<double> volume_error_half_seen;
   std::optional<double> centre_error_half_seen_m;
-  std::optional<PixelHits> pixels;             ///< of all frames together; null: none had labels
-  double joint_path_length_rad = 0.0;          ///< Σ|Δq| of all motions
-  double motion_time_s = 0.0;                  ///< of all motions, transitions included
-  double planning_time_s = 0.0;                ///< standing still before views
-  int collisions = 0;                          ///< motions with one
-  int plant_contacts = 0;                      ///< motions that touched a plant not yet seen
+  std::optional<PixelHits> pixels;     ///< of all frames together; null: none had labels
+  double joint_path_length_rad = 0.0;  ///< Σ|Δq| of all motions
+  double motion_time_s = 0.0;          ///< of all motions, transitions included
+  double planning_time_s = 0.0;        ///< standing still before views
+  int collisions = 0;                  ///< motions with one
+  int plant_contacts = 0;              ///< motions that touched a plant not yet seen
   int views = 0;
   std::vector<FoundAtTime> found;  ///< one entry per view
 };

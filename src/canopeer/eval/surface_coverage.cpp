@@ -48,8 +48,7 @@ struct Areas {
 /// The triangle as n² small ones, each judged by its middle.
 void add_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const SeenPoints& seen,
                   double part_m, Areas& areas) {
-  const double longest =
-      std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+  const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
   const int n = std::clamp(static_cast<int>(std::ceil(longest / part_m)), 1, 200);
   const double area = 0.5 * (b - a).cross(c - a).norm() / (n * n);
   const auto judge = [&](double u, double v) {

@@ -41,12 +41,15 @@ Expected<void> check_scale(const std::vector<Vec3>& points, std::size_t all, int
   for (const Vec3& p : points) bounds.extend(p);
   const double extent = bounds.sizes().maxCoeff();
   if (extent < kMinExtent_m) {
-    return fail(fmt::format("the whole cloud is {:.3g} m wide, less than a fruit: are the "
-                            "coordinates in metres? (see --unit)", extent));
+    return fail(
+        fmt::format("the whole cloud is {:.3g} m wide, less than a fruit: are the "
+                    "coordinates in metres? (see --unit)",
+                    extent));
   }
   // Voxel indices reach to ± 2²⁰ cells.
   if (bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()).maxCoeff() > 2000.0) {
-    return fail("coordinates beyond 2000 m: are they in metres, about a nearby origin? (see --unit)");
+    return fail(
+        "coordinates beyond 2000 m: are they in metres, about a nearby origin? (see --unit)");
   }
   return {};
 }
@@ -134,9 +137,10 @@ Expected<CloudFruits> fit_cloud(const PointCloud& cloud, const CloudFitOptions& 
   }
   const double spacing = median_spacing(points);
   if (spacing > kMaxSpacing_m) {
-    return fail(fmt::format("neighbouring points are {:.3g} m apart: are the coordinates in metres? "
-                            "(see --unit; a surface needs points at most {} m apart)",
-                            spacing, kMaxSpacing_m));
+    return fail(
+        fmt::format("neighbouring points are {:.3g} m apart: are the coordinates in metres? "
+                    "(see --unit; a surface needs points at most {} m apart)",
+                    spacing, kMaxSpacing_m));
   }
   const Thinned thinned = thin(cloud, points, index, options, viewpoint);
   FitOptions fit_options;
@@ -169,9 +173,8 @@ Expected<CloudFruits> fit_cloud(const PointCloud& cloud, const CloudFitOptions& 
       e.views = 1;
       e.id = static_cast<int>(result.fruits.size());
       e.color = mean_color(thinned.colors, own_index);
-      e.confidence = limits.confidence(evidence_of(
-          e, limits, 1e4 * options.cell_m * options.cell_m, 1.0,
-          normal_spread(surface, separated.points)));
+      e.confidence = limits.confidence(evidence_of(e, limits, 1e4 * options.cell_m * options.cell_m,
+                                                   1.0, normal_spread(surface, separated.points)));
       std::vector<Vec3>& unseen = result.missing.emplace_back();
       for (const SurfacePoint& s : missing.points) unseen.push_back(s.point);
       for (const int i : own_index) result.fruit[i] = e.id;

@@ -25,9 +25,10 @@ struct CloudFruits {
   std::vector<std::vector<Vec3>> missing;  ///< of each fruit: points of its shape nobody saw
 };
 
-/// Finds the fruits in a cloud of fruit surface points and fits their shapes, as the fruit map does.
-/// Points that are not finite are left out. `viewpoint`: where they were seen from. The error says
-/// why there is nothing to fit: no points, none finite, too few, coordinates that cannot be metres.
+/// Finds the fruits in a cloud of fruit surface points and fits their shapes, as the fruit map
+/// does. Points that are not finite are left out. `viewpoint`: where they were seen from. The error
+/// says why there is nothing to fit: no points, none finite, too few, coordinates that cannot be
+/// metres.
 [[nodiscard]] Expected<CloudFruits> fit_cloud(const PointCloud& cloud,
                                               const CloudFitOptions& options = {},
                                               const std::optional<Vec3>& viewpoint = {});

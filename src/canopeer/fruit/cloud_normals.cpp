@@ -27,7 +27,8 @@ class PointGrid {
           cells_.find(voxel_key(cell + VoxelIndex(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1)));
       if (found == cells_.end()) continue;
       for (const int i : found->second) {
-        if ((points_[static_cast<std::size_t>(i)] - p).squaredNorm() <= reach_m_ * reach_m_) visit(i);
+        if ((points_[static_cast<std::size_t>(i)] - p).squaredNorm() <= reach_m_ * reach_m_)
+          visit(i);
       }
     }
   }

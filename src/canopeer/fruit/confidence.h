@@ -6,13 +6,13 @@ namespace canopeer {
 
 /// What tells how likely a candidate is a fruit.
 struct FruitEvidence {
-  double area_cm2 = 0.0;      ///< of the surface seen
-  double seen_share = 0.0;    ///< of the fitted shape's surface
-  double rms_m = 0.0;         ///< of the points about the shape
-  double fruit_share = 0.0;   ///< of the pixels on it those taken for fruit
-  int views = 0;              ///< frames it was seen in
-  double size_sds = 0.0;      ///< how far its size is from the prior's, standard deviations
-  double normal_spread = 0.0; ///< variance of the normals: 0 for a plane
+  double area_cm2 = 0.0;       ///< of the surface seen
+  double seen_share = 0.0;     ///< of the fitted shape's surface
+  double rms_m = 0.0;          ///< of the points about the shape
+  double fruit_share = 0.0;    ///< of the pixels on it those taken for fruit
+  int views = 0;               ///< frames it was seen in
+  double size_sds = 0.0;       ///< how far its size is from the prior's, standard deviations
+  double normal_spread = 0.0;  ///< variance of the normals: 0 for a plane
 };
 
 /// Logistic regression on the evidence. The weights were fitted on simulated runs; how, and how

@@ -114,7 +114,8 @@ std::vector<Superellipsoid> fit_starts(std::span<const SurfacePoint> surface,
     double distance = 0.0;
     for (const SurfacePoint& s : surface) distance += (s.point - crossing).norm();
     distance /= static_cast<double>(surface.size());
-    starts.push_back(start_at(crossing, std::clamp(distance / prior.radius_m, 0.7, 1.4), rotation, prior));
+    starts.push_back(
+        start_at(crossing, std::clamp(distance / prior.radius_m, 0.7, 1.4), rotation, prior));
     const Vec3 deeper = voted - 0.25 * prior.radius_m * spread.mean_normal.normalized();
     starts.push_back(start_at(deeper, 1.25, rotation, prior));
   }

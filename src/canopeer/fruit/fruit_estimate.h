@@ -35,14 +35,14 @@ struct FruitEstimate {
   int points = 0;           ///< distinct surface cells seen
   double confidence = 0.0;  ///< that it is a fruit: of those at confidence c about c are, 0 … 1
 
-  Vec3 centre_sd_m = Vec3::Zero();  ///< standard errors along x, y, z
-  double volume_sd_cm3 = 0.0;       ///< standard error
-  double rms_m = 0.0;               ///< of the points' radial distances from the shape
-  double seen_share = 0.0;          ///< of the shape's surface, 0 … 1
+  Vec3 centre_sd_m = Vec3::Zero();               ///< standard errors along x, y, z
+  double volume_sd_cm3 = 0.0;                    ///< standard error
+  double rms_m = 0.0;                            ///< of the points' radial distances from the shape
+  double seen_share = 0.0;                       ///< of the shape's surface, 0 … 1
   PixelLabel ripeness = PixelLabel::background;  ///< background: nobody said
-  Rgb color;                               ///< mean of the seen surface
-  int views = 0;                           ///< frames it was seen in
-  double first_seen_s = 0.0;               ///< mission time
+  Rgb color;                                     ///< mean of the seen surface
+  int views = 0;                                 ///< frames it was seen in
+  double first_seen_s = 0.0;                     ///< mission time
   double last_seen_s = 0.0;
   std::optional<RowPlace> place;
 

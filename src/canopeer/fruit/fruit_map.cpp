@@ -24,9 +24,9 @@ struct KnownFruit {
   double fruit_share = 0.0;
   double normal_spread = 0.0;
   SuperellipsoidFit fit;
-  std::vector<std::uint64_t> cells;  ///< its surface, ascending
-  std::vector<int> blocks;           ///< its cells lie in, ascending
-  std::vector<SurfacePoint> surface; ///< until its shape is fitted
+  std::vector<std::uint64_t> cells;   ///< its surface, ascending
+  std::vector<int> blocks;            ///< its cells lie in, ascending
+  std::vector<SurfacePoint> surface;  ///< until its shape is fitted
 };
 
 /// Surface of the blocks that hang together, and which block each point comes from.
@@ -60,8 +60,7 @@ void sort_unique(std::vector<T>& values) {
 }  // namespace
 
 struct FruitMap::State {
-  explicit State(const FruitMapOptions& o)
-      : options(o), surface(o.tsdf), tracker(o.id_distance_m) {
+  explicit State(const FruitMapOptions& o) : options(o), surface(o.tsdf), tracker(o.id_distance_m) {
     fit_options.prior = o.prior;
     fit_options.max_points = o.fit_points;
   }
@@ -174,8 +173,8 @@ void FruitMap::State::solve(const Patch& patch, std::vector<KnownFruit>& found) 
     color = color / e.points + 0.5;
     e.color = {static_cast<std::uint8_t>(color[0]), static_cast<std::uint8_t>(color[1]),
                static_cast<std::uint8_t>(color[2])};
-    e.ripeness = static_cast<PixelLabel>(std::max_element(votes.begin() + 1, votes.end()) -
-                                         votes.begin());
+    e.ripeness =
+        static_cast<PixelLabel>(std::max_element(votes.begin() + 1, votes.end()) - votes.begin());
     e.centre = separated.shape.centre;
     fruit.fruit_share = fruit_share / e.points;
     fruit.normal_spread = normal_spread(patch.surface, separated.points);
@@ -190,8 +189,8 @@ void FruitMap::State::solve(const Patch& patch, std::vector<KnownFruit>& found) 
 void FruitMap::State::measure(KnownFruit& fruit, const KnownFruit* before,
                               const std::vector<int>& changed, bool anew) {
   FruitEstimate& e = fruit.estimate;
-  const bool unchanged = before != nullptr && before->cells == fruit.cells &&
-                         !share_element(fruit.blocks, changed);
+  const bool unchanged =
+      before != nullptr && before->cells == fruit.cells && !share_element(fruit.blocks, changed);
   if (unchanged) {
     fruit.fit = before->fit;
     e.seen_share = before->estimate.seen_share;
@@ -291,9 +290,8 @@ void FruitMap::State::update(const std::vector<int>& changed, bool anew) {
     s.measure(found[i], same == before.end() ? nullptr : &*same, changed, anew);
     after.push_back(std::move(found[i]));
   }
-  std::sort(after.begin(), after.end(), [](const KnownFruit& a, const KnownFruit& b) {
-    return a.estimate.id < b.estimate.id;
-  });
+  std::sort(after.begin(), after.end(),
+            [](const KnownFruit& a, const KnownFruit& b) { return a.estimate.id < b.estimate.id; });
   s.known = std::move(after);
   s.count_views();
   s.hand_out();

@@ -14,8 +14,9 @@
 namespace canopeer {
 
 /// The fruits found so far. Frames go in one by one; update() makes fruits of what has been seen.
-/// One map for the whole mission, in the world: what is seen from both sides of a row, or in several
-/// segments, comes together on the same surface. Deterministic; one owner (not thread-safe).
+/// One map for the whole mission, in the world: what is seen from both sides of a row, or in
+/// several segments, comes together on the same surface. Deterministic; one owner (not
+/// thread-safe).
 class FruitMap {
  public:
   explicit FruitMap(const FruitMapOptions& options = {});

@@ -27,15 +27,16 @@ struct FruitMapOptions {
   double min_centre_distance_m = 0.045;   ///< closer centres are one fruit
   double min_normal_spread = 0.03;        ///< variance of the normals; below it: a flat thing
   double min_curvature_radius_m = 0.017;  ///< from points and normals alone; below it: a clip
-  double max_piece_m = 0.22;    ///< a straight piece longer than this is a pipe, not fruits
-  double min_height_m = 0.08;   ///< centres below it (world z) are on the floor
-  double id_distance_m = 0.05;  ///< a fruit that shares no surface with what it was keeps its id so far
+  double max_piece_m = 0.22;   ///< a straight piece longer than this is a pipe, not fruits
+  double min_height_m = 0.08;  ///< centres below it (world z) are on the floor
+  double id_distance_m =
+      0.05;  ///< a fruit that shares no surface with what it was keeps its id so far
 
   // Shape and report.
-  int fit_points = 160;   ///< of a fruit's surface, evenly, for its shape
+  int fit_points = 160;  ///< of a fruit's surface, evenly, for its shape
   ConfidenceModel confidence;
-  double min_confidence = 0.5;   ///< less likely fruits are not reported
-  std::vector<PlantRow> rows;    ///< for places in rows; none: no places
+  double min_confidence = 0.5;  ///< less likely fruits are not reported
+  std::vector<PlantRow> rows;   ///< for places in rows; none: no places
 
   [[nodiscard]] Expected<void> validate() const;
 };

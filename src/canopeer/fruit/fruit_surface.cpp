@@ -35,8 +35,8 @@ struct Corners {
   [[nodiscard]] bool crossed(int x, int y, int z) const {
     const std::uint8_t* s = side.data() + index(x, y, z);
     constexpr int kUp = kCorners * kCorners;
-    return (s[0] | s[1] | s[kCorners] | s[kCorners + 1] | s[kUp] | s[kUp + 1] |
-            s[kUp + kCorners] | s[kUp + kCorners + 1]) == (kOutside | kInside);
+    return (s[0] | s[1] | s[kCorners] | s[kCorners + 1] | s[kUp] | s[kUp + 1] | s[kUp + kCorners] |
+            s[kUp + kCorners + 1]) == (kOutside | kInside);
   }
 };
 
@@ -167,9 +167,9 @@ SurfaceMesh FruitSurface::mesh() const {
     const int number = tsdf_.block_at(block);
     if (number < 0) return std::nullopt;
     const VoxelIndex in = voxel - block * kSide;
-    const TsdfVoxel& v = tsdf_.blocks()[static_cast<std::size_t>(number)]
-                             ->voxels[static_cast<std::size_t>(
-                                 FruitTsdf::offset(in.x(), in.y(), in.z()))];
+    const TsdfVoxel& v =
+        tsdf_.blocks()[static_cast<std::size_t>(number)]
+            ->voxels[static_cast<std::size_t>(FruitTsdf::offset(in.x(), in.y(), in.z()))];
     if (v.weight < kMinWeight) return std::nullopt;
     return v.distance_m;
   };

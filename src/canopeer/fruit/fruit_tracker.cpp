@@ -46,8 +46,8 @@ std::vector<Link> links_between(const std::vector<TrackedFruit>& found,
     for (std::size_t b = 0; b < before.size(); ++b) {
       const double distance = (found[f].centre - before[b].centre).norm();
       if (distance > kFar_m) continue;
-      links.push_back({common_cells(found[f].cells, before[b].cells), distance,
-                       static_cast<int>(f), static_cast<int>(b)});
+      links.push_back({common_cells(found[f].cells, before[b].cells), distance, static_cast<int>(f),
+                       static_cast<int>(b)});
     }
   }
   std::sort(links.begin(), links.end(), stronger);

@@ -17,8 +17,8 @@ struct TrackedFruit {
 /// What happened to an id.
 struct IdChange {
   enum class Kind { merged, split } kind = Kind::merged;
-  int id = 0;    ///< the fruit that ended (merged) or began (split)
-  int other = 0; ///< the fruit it went into, or came out of
+  int id = 0;     ///< the fruit that ended (merged) or began (split)
+  int other = 0;  ///< the fruit it went into, or came out of
 };
 
 /// Gives out ids 0, 1, 2, … such that a fruit found again keeps its own. Fruits are the same when

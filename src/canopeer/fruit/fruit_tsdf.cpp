@@ -131,8 +131,7 @@ void FruitTsdf::fuse_block(Block& block, const RgbdFrame& frame,
   const auto changed = static_cast<float>(options_.changed_m);
   const bool colored = !frame.color.empty();
   const Pose T_camera_world = frame.T_world_camera.inverse();
-  const Eigen::Matrix3f step =
-      (T_camera_world.linear() * options_.voxel_m).template cast<float>();
+  const Eigen::Matrix3f step = (T_camera_world.linear() * options_.voxel_m).template cast<float>();
   const VoxelIndex first = block.index * kSide;
   const Eigen::Vector3f origin =
       (T_camera_world * voxel_centre(first, options_.voxel_m)).template cast<float>();
@@ -142,8 +141,8 @@ void FruitTsdf::fuse_block(Block& block, const RgbdFrame& frame,
   const auto cy = static_cast<float>(k.cy);
   for (int z = 0; z < kSide; ++z) {
     for (int y = 0; y < kSide; ++y) {
-      Eigen::Vector3f p = origin + static_cast<float>(y) * step.col(1) +
-                          static_cast<float>(z) * step.col(2);
+      Eigen::Vector3f p =
+          origin + static_cast<float>(y) * step.col(1) + static_cast<float>(z) * step.col(2);
       for (int x = 0; x < kSide; ++x, p += step.col(0)) {
         if (!(p.z() > 0.05F)) continue;
         const float slope_u = p.x() / p.z();
@@ -165,11 +164,10 @@ void FruitTsdf::fuse_block(Block& block, const RgbdFrame& frame,
         const float weight = weight_at(p.z());
         const float before = voxel.distance_m;
         const float sum = voxel.weight + weight;
-        voxel.distance_m =
-            (voxel.weight * before + weight * std::min(distance, truncation)) / sum;
-        if (std::abs(voxel.distance_m) < 2.0F * near_surface || std::abs(before) < 2.0F * near_surface) {
-          const bool moved =
-              voxel.weight == 0.0F || std::abs(voxel.distance_m - before) > changed;
+        voxel.distance_m = (voxel.weight * before + weight * std::min(distance, truncation)) / sum;
+        if (std::abs(voxel.distance_m) < 2.0F * near_surface ||
+            std::abs(before) < 2.0F * near_surface) {
+          const bool moved = voxel.weight == 0.0F || std::abs(voxel.distance_m - before) > changed;
           if (moved) block.changed |= kBelow[(x == 0) + 2 * (y == 0) + 4 * (z == 0)];
         }
         voxel.weight = std::min(sum, max_weight);

@@ -20,7 +20,7 @@ struct TsdfOptions {
   double truncation_m = 0.012;      ///< distances are kept up to here, in front and behind
   double max_range_m = 1.6;         ///< farther pixels (depth along the axis) are not taken
   double max_depth_step_m = 0.012;  ///< a pixel beside a larger step is at an edge and not taken
-  double max_weight = 40.0;  ///< of a voxel, in frames from 0.5 m: older ones fade when it is full
+  double max_weight = 40.0;   ///< of a voxel, in frames from 0.5 m: older ones fade when it is full
   double changed_m = 0.0004;  ///< a surface that moved less has not changed
 
   [[nodiscard]] Expected<void> validate() const;
@@ -49,7 +49,7 @@ class FruitTsdf {
     /// Which blocks' surface has changed since take_changed(): bit k is the block below by 1 along
     /// x (k & 1), y (k & 2), z (k & 4), whose upper cells have corners here; bit 0 is this one.
     std::uint8_t changed = 0;
-    int fruit_frame = -1;       ///< number of the last frame with a fruit pixel in it
+    int fruit_frame = -1;  ///< number of the last frame with a fruit pixel in it
   };
 
   explicit FruitTsdf(const TsdfOptions& options);

@@ -36,7 +36,8 @@ class RowReader {
 };
 
 PixelLabel class_named(const std::string& name) {
-  for (const PixelLabel c : {PixelLabel::green_fruit, PixelLabel::turning_fruit, PixelLabel::ripe_fruit}) {
+  for (const PixelLabel c :
+       {PixelLabel::green_fruit, PixelLabel::turning_fruit, PixelLabel::ripe_fruit}) {
     if (name == ripeness_name(c)) return c;
   }
   return PixelLabel::background;
@@ -58,8 +59,8 @@ void read_later_columns(RowReader& row, FruitEstimate& f) {
   const std::string name = row.text("row");
   if (name.empty()) return;
   const std::string side = row.text("side");
-  f.place = RowPlace{name, side.empty() ? 'L' : side[0], row.number("along_m"),
-                     row.number("height_m")};
+  f.place =
+      RowPlace{name, side.empty() ? 'L' : side[0], row.number("along_m"), row.number("height_m")};
 }
 
 FruitEstimate fruit_from(RowReader& row) {

@@ -9,8 +9,8 @@
 
 namespace canopeer {
 
-/// `fruits.csv`: one row per fruit in the given order; columns in docs/formats.md. A fruit in no row
-/// has its last four fields empty.
+/// `fruits.csv`: one row per fruit in the given order; columns in docs/formats.md. A fruit in no
+/// row has its last four fields empty.
 [[nodiscard]] std::string fruits_csv(const std::vector<FruitEstimate>& fruits);
 
 /// The error names file, line and column. Of a file without the columns after `confidence` the rest

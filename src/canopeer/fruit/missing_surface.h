@@ -18,7 +18,7 @@ struct MissingSurface {
 };
 
 [[nodiscard]] MissingSurface missing_surface(const Superellipsoid& body,
-                                             std::span<const SurfacePoint> seen,
-                                             int samples = 128, double reach_m = 0.015);
+                                             std::span<const SurfacePoint> seen, int samples = 128,
+                                             double reach_m = 0.015);
 
 }  // namespace canopeer

@@ -39,8 +39,8 @@ bool odd(std::span<const SurfacePoint> surface, const std::vector<int>& members,
 
 }  // namespace
 
-std::vector<char> ordinary_pieces(std::span<const SurfacePoint> surface,
-                                  std::span<const int> piece, const FruitMapOptions& options) {
+std::vector<char> ordinary_pieces(std::span<const SurfacePoint> surface, std::span<const int> piece,
+                                  const FruitMapOptions& options) {
   CANOPEER_CHECK(surface.size() == piece.size(), "one piece number per point");
   std::map<int, std::vector<int>> members;
   for (std::size_t i = 0; i < piece.size(); ++i) members[piece[i]].push_back(static_cast<int>(i));

@@ -85,8 +85,8 @@ void SuperellipsoidCost::evaluate(const double* parameters, double* r, double* j
 }
 
 /// The radial distance d = m (1 − 1/G), m the distance from the centre, G = F^(e1/2) the gauge, and
-/// by the chain rule through log G: each of its derivatives is a share of the terms of F. Points are
-/// taken in chunks, so that logarithms and exponentials run over arrays.
+/// by the chain rule through log G: each of its derivatives is a share of the terms of F. Points
+/// are taken in chunks, so that logarithms and exponentials run over arrays.
 void SuperellipsoidCost::evaluate_points(const FitParameters& p, double* r_out,
                                          double* jacobian_out) const {
   const double e1 = p[3];
@@ -137,8 +137,7 @@ void SuperellipsoidCost::evaluate_points(const FitParameters& p, double* r_out,
     if (jacobian_out == nullptr) continue;
 
     // dr/ds = s / (r (1 + t)), 1 at 0.
-    const Chunk slope = weight_ * per_sd *
-                        (size < 1e-9).select(1.0, s / ((1.0 + t) * robust));
+    const Chunk slope = weight_ * per_sd * (size < 1e-9).select(1.0, s / ((1.0 + t) * robust));
     const Chunk share_u = u_term / f;
     const Chunk share_w = w_term / f;
     const Chunk share_x = share_u * power_x / across;
@@ -174,8 +173,7 @@ void SuperellipsoidCost::evaluate_points(const FitParameters& p, double* r_out,
 
 /// Sizes, roundness, exponents, an upright axis, the normals' vote for the centre; a weak hold on
 /// the turn about the axis, which a round body leaves open.
-void SuperellipsoidCost::evaluate_prior(const FitParameters& p, double* r,
-                                        double* jacobian) const {
+void SuperellipsoidCost::evaluate_prior(const FitParameters& p, double* r, double* jacobian) const {
   const ShapePrior& o = prior_;
   Eigen::Map<Eigen::Matrix<double, kPriorResiduals, 1>> residual(r);
   const Vec3 axis = (exp_of(p.tail<3>()) * reference_).col(2);

@@ -27,9 +27,7 @@ class SuperellipsoidCost {
                      const Vec3& centre_vote, const Eigen::Matrix3d& reference);
 
   static constexpr int kPriorResiduals = 11;
-  [[nodiscard]] int residuals() const {
-    return static_cast<int>(x_.size()) + kPriorResiduals;
-  }
+  [[nodiscard]] int residuals() const { return static_cast<int>(x_.size()) + kPriorResiduals; }
 
   /// r of length residuals(); `jacobian` row-major residuals() × 11, null: not wanted.
   void evaluate(const double* parameters, double* r, double* jacobian) const;

@@ -40,7 +40,8 @@ ceres::Solver::Options solver_options(const FitOptions& options) {
   solver.function_tolerance = options.function_tolerance;
   solver.logging_type = ceres::SILENT;
   solver.num_threads = 1;
-  // Steps are clipped to the bounds; a line search along each clipped step costs more than it helps.
+  // Steps are clipped to the bounds; a line search along each clipped step costs more than it
+  // helps.
   solver.max_num_line_search_step_size_iterations = 0;
   return solver;
 }
@@ -147,7 +148,8 @@ SuperellipsoidFit fit_superellipsoid(std::span<const SurfacePoint> surface,
     from = &start;
   }
   const SuperellipsoidCost cost(fine, options.prior, vote, from->T_world_body.linear());
-  if (fine.size() > coarse.size() || starts.size() == 1) best = solve(cost, best.parameters, solver);
+  if (fine.size() > coarse.size() || starts.size() == 1)
+    best = solve(cost, best.parameters, solver);
   SuperellipsoidFit fit;
   fit.body = body_of(best.parameters, from->T_world_body.linear());
   fit.rms_m = clipped_rms(fine, fit.body);
