@@ -114,10 +114,10 @@ std::vector<LinkPairSurvey> check_pairs(const RobotModel& robot, int states, Fin
               checked);
   for (const LinkPairSurvey& pair : pairs) {
     const std::string names = pair.link_a + " / " + pair.link_b;
-    if (!pair.disabled && pair.always())
-      findings.wrong(names + " always touch: disable the pair in the SRDF, or mend a shape");
-    else if (!pair.disabled && pair.adjacent && !pair.never())
+    if (!pair.disabled && pair.adjacent && !pair.never())
       findings.wrong(names + " are joined by a joint and touch: disable the pair in the SRDF");
+    else if (!pair.disabled && pair.always())
+      findings.wrong(names + " always touch: disable the pair in the SRDF, or mend a shape");
     else if (!pair.disabled && pair.never())
       std::printf("  never touch, could be disabled: %s\n", names.c_str());
     else if (pair.disabled && !pair.adjacent && !pair.never() && !pair.always())

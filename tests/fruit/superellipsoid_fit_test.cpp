@@ -46,6 +46,7 @@ FitOptions points_only() {
   options.max_points = 2000;
   options.function_tolerance = 1e-10;
   options.max_iterations = 200;
+  options.coarse_iterations = 30;  // a valley this flat takes longer to show which start is right
   return options;
 }
 
