@@ -98,7 +98,8 @@ FuseResult apply(VoxelMap& map, const EndPoints& ends, const FreeSpace& free, bo
 FreeSpace walk_rays(const RgbdFrame& frame, const DepthImage& free_depth, double resolution_m) {
   BlockDirectory directory;
   FreeSpace free;
-  std::uint32_t slot = 0;
+  VoxelMask* mask = nullptr;  // of the block a ray is in
+  VoxelIndex block = VoxelIndex::Zero();
   const Vec3 origin = frame.T_world_camera.translation();
   for (int v = 0; v < free_depth.height(); ++v) {
     for (int u = 0; u < free_depth.width(); ++u) {
@@ -106,16 +107,19 @@ FreeSpace walk_rays(const RgbdFrame& frame, const DepthImage& free_depth, double
       if (depth <= 0.0) continue;
       const Vec3 end = frame.T_world_camera * (depth * frame.intrinsics.ray(u, v));
       const VoxelIndex last = voxel_at(end, resolution_m);
-      BlockKey in_block = ~BlockKey{0};
       walk_voxels(origin, end, resolution_m, [&](const VoxelIndex& voxel) {
         if (voxel == last) return false;
-        const BlockKey key = block_key(voxel);
-        if (key != in_block) {
-          in_block = key;
-          slot = directory.find_or_add(key);
+        const int beyond =
+            ((voxel.x() ^ block.x()) | (voxel.y() ^ block.y()) | (voxel.z() ^ block.z())) >>
+            kBlockShift;
+        if (beyond != 0 || mask == nullptr) {
+          block = voxel;
+          const BlockKey key = block_key(voxel);
+          const std::uint32_t slot = directory.find_or_add(key);
           if (slot == free.parts.size()) free.parts.push_back({key, {}});
+          mask = &free.parts[slot].free;
         }
-        free.parts[slot].free.set(voxel);
+        mask->set(voxel);
         return true;
       });
     }
