@@ -114,7 +114,7 @@ TEST(Occlusion, IsTheSameWithOneThreadAndWithTwo) {
 }
 
 // Of the fruits of a dense crop that no level view in front shows to 30 %, other views show four in
-// five. The quarter of all fruits that was aimed at is not reached: see BENCHMARKS.md.
+// five. The quarter of all fruits that was aimed at is not reached.
 TEST(Occlusion, DenseCropsHideFruitsThatOtherViewsFind) {
   int fruits = 0;
   int hidden = 0;
