@@ -49,7 +49,8 @@ Glasshouse::Glasshouse(const std::string& robot_yaml, int views)
     seen.color = std::move(rendered.color);
     WorkMeter work;
     StageTimer timer;
-    targets = perception.observe(seen, frame.sampling_region_world, work, timer).value().change.targets;
+    targets =
+        perception.observe(seen, frame.sampling_region_world, work, timer).value().change.targets;
     const auto next = draw_views(64, 100 + static_cast<std::uint64_t>(view));
     if (!next.empty()) T_world_camera = next.front().T_world_camera;
   }

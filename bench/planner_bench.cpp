@@ -61,7 +61,8 @@ class Segment {
     targets_ = world.perception
                    .observe(ports.camera->capture().value(), world.frame.sampling_region_world,
                             work, timer)
-                   .value().change.targets;
+                   .value()
+                   .change.targets;
   }
   [[nodiscard]] const FrontierTargets& targets() const { return targets_; }
   [[nodiscard]] const VoxelMap& map() const { return world.perception.map(); }

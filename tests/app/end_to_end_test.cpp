@@ -40,8 +40,9 @@ TEST(SmokeMission, GivesTheSameResultsAtOneAndTwoThreads) {
 
   const std::string summary = summary_without_wall_time(one);
   EXPECT_EQ(summary, summary_without_wall_time(two));
-  for (const char* file : {"record", "timeline.csv", "fruits.csv", "fruits.json", "fruits.ply", "fruits.glb", "map.ot",
-                           "map_roi.ot", "ground_truth.csv", "pictures/01_row.png"}) {
+  for (const char* file :
+       {"record", "timeline.csv", "fruits.csv", "fruits.json", "fruits.ply", "fruits.glb", "map.ot",
+        "map_roi.ot", "ground_truth.csv", "pictures/01_row.png"}) {
     const auto a = read_file(one / file);
     const auto b = read_file(two / file);
     ASSERT_TRUE(a.has_value() && b.has_value()) << file;

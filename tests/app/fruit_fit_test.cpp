@@ -39,7 +39,8 @@ std::string as_text(const PointCloud& cloud, const std::string& head, const char
   for (const auto& p : cloud.points) {
     const Vec3 q = unit * p.cast<double>();
     char line[80];
-    std::snprintf(line, sizeof line, "%.5f%s%.5f%s%.5f\n", q.x(), separator, q.y(), separator, q.z());
+    std::snprintf(line, sizeof line, "%.5f%s%.5f%s%.5f\n", q.x(), separator, q.y(), separator,
+                  q.z());
     text += line;
   }
   return text;
@@ -96,12 +97,12 @@ TEST_F(FruitFit, ReadsEveryFormatWithAndWithoutNormals) {
                                            "\nproperty float x\nproperty float y\nproperty float "
                                            "z\nend_header\n",
                                        " ", 1.0)));
-  expect_both(file("text.pcd",
-                   as_text(cloud,
-                           "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " +
-                               count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count +
-                               "\nDATA ascii\n",
-                           " ", 1.0)));
+  expect_both(file(
+      "text.pcd",
+      as_text(cloud,
+              "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + count +
+                  "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA ascii\n",
+              " ", 1.0)));
   expect_both(file("table.csv", as_text(cloud, "x_m,y_m,z_m\n", ",", 1.0)));
   expect_both(file("millimetres.csv", as_text(cloud, "", ",", 1000.0)), {"--unit", "mm"});
 }

@@ -123,15 +123,15 @@ AutoDiffFit auto_diff_fit(std::span<const SurfacePoint> surface, const FitOption
   Eigen::Matrix3d reference = Eigen::Matrix3d::Identity();
   for (const Superellipsoid& start : fit_starts(fine, options)) {
     const Eigen::Matrix3d own = start.T_world_body.linear();
-    const Solution solution = solve(coarse, options, vote, parameters_of(start), own,
-                                    fine.size() > coarse.size() ? options.coarse_iterations
-                                                                : options.max_iterations);
+    const Solution solution =
+        solve(coarse, options, vote, parameters_of(start), own,
+              fine.size() > coarse.size() ? options.coarse_iterations : options.max_iterations);
     if (solution.cost >= best.cost) continue;
     best = solution;
     reference = own;
   }
-  if (fine.size() > coarse.size()) best = solve(fine, options, vote, best.parameters, reference,
-                                               options.max_iterations);
+  if (fine.size() > coarse.size())
+    best = solve(fine, options, vote, best.parameters, reference, options.max_iterations);
   return {body_of(best.parameters, reference), best.cost};
 }
 

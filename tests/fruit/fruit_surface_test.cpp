@@ -40,8 +40,7 @@ std::vector<Vec3> ring(int cameras) {
 }
 
 TEST(FruitSurface, OfABallLiesOnItWithNormalsOutward) {
-  const SurfaceMesh mesh =
-      seen_from({ball(kCentre, kRadius, kRipe, true)}, ring(8)).mesh();
+  const SurfaceMesh mesh = seen_from({ball(kCentre, kRadius, kRipe, true)}, ring(8)).mesh();
   ASSERT_GT(mesh.vertices.size(), 600U);
   double mean = 0.0;
   for (const SurfaceVertex& v : mesh.vertices) {
@@ -58,8 +57,7 @@ TEST(FruitSurface, OfABallLiesOnItWithNormalsOutward) {
 }
 
 TEST(FruitSurface, MeshFacesOutwardAndHasTheBallsArea) {
-  const SurfaceMesh mesh =
-      seen_from({ball(kCentre, kRadius, kRipe, true)}, ring(12)).mesh();
+  const SurfaceMesh mesh = seen_from({ball(kCentre, kRadius, kRipe, true)}, ring(12)).mesh();
   double area = 0.0;
   for (const auto& t : mesh.triangles) {
     const Vec3 a = mesh.vertices[t[0]].surface.point;
@@ -82,8 +80,8 @@ TEST(FruitSurface, IsCarvedAwayWhereLaterFramesSeeThrough) {
   surface.update();
   EXPECT_GT(surface.mesh().vertices.size(), 100U);
   // The fruit was picked: now the camera sees the wall behind.
-  const View gone = look({block(Box(Vec3(1.0, -2, -2), Vec3(1.1, 2, 2)), kLeaf)}, {0.0, 0.0, 0.6},
-                         kCentre);
+  const View gone =
+      look({block(Box(Vec3(1.0, -2, -2), Vec3(1.1, 2, 2)), kLeaf)}, {0.0, 0.0, 0.6}, kCentre);
   for (int i = 0; i < 8; ++i) surface.add(gone.frame, Mask(320, 240, 0));
   surface.update();
   EXPECT_EQ(surface.mesh().vertices.size(), 0U);

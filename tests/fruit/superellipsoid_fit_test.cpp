@@ -164,8 +164,7 @@ TEST(FitSuperellipsoid, FollowsRigidMotions) {
     const Superellipsoid truth = pepper(rng);
     const auto points = seen_part(truth, kTowards, -1.0, 0.0005, rng);
     Pose motion = Pose::Identity();
-    motion.linear() =
-        rotation_of({rng.uniform(-3, 3), rng.uniform(-1.5, 1.5), rng.uniform(-3, 3)});
+    motion.linear() = rotation_of({rng.uniform(-3, 3), rng.uniform(-1.5, 1.5), rng.uniform(-3, 3)});
     motion.translation() = Vec3(rng.uniform(-5, 5), rng.uniform(-5, 5), rng.uniform(-5, 5));
     std::vector<SurfacePoint> moved;
     for (const SurfacePoint& s : points) {

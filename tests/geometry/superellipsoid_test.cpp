@@ -17,7 +17,8 @@ Superellipsoid random_body(Rng& rng) {
   body.e2 = rng.uniform(0.3, 1.2);
   body.T_world_body.linear() =
       rotation_of({rng.uniform(-3, 3), rng.uniform(-1.5, 1.5), rng.uniform(-3, 3)});
-  body.T_world_body.translation() = Vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
+  body.T_world_body.translation() =
+      Vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
   return body;
 }
 
@@ -33,8 +34,7 @@ TEST(Superellipsoid, GaugeIsThePowerOfTheDefinition) {
   Rng rng(1);
   for (int i = 0; i < 500; ++i) {
     const Superellipsoid body = random_body(rng);
-    const Vec3 p =
-        body.centre() + 0.1 * Vec3(rng.normal(), rng.normal(), rng.normal());
+    const Vec3 p = body.centre() + 0.1 * Vec3(rng.normal(), rng.normal(), rng.normal());
     EXPECT_NEAR(body.gauge(p), std::pow(definition(body, p), body.e1 / 2), 1e-9 * body.gauge(p));
   }
 }

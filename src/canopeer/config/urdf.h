@@ -16,8 +16,7 @@ namespace canopeer {
 /// mesh that cannot be read, mimic joints, no single tree) name file and line; a visual mesh that
 /// cannot be read becomes a notice.
 [[nodiscard]] Expected<RobotDescription> read_urdf(
-    const std::filesystem::path& path,
-    const std::vector<std::filesystem::path>& package_path = {});
+    const std::filesystem::path& path, const std::vector<std::filesystem::path>& package_path = {});
 
 /// The same from text; `name` stands for the file in messages.
 [[nodiscard]] Expected<RobotDescription> parse_urdf(const std::string& xml, const std::string& name,

@@ -128,9 +128,10 @@ class GlbWriter {
     const int color = add_accessor(colors, kFloat, kVertexData, count, "VEC3");
     const int index =
         add_accessor(indices, kUnsignedInt, kIndexData, piece.indices.size(), "SCALAR");
-    Json primitive = {{"attributes", {{"POSITION", position}, {"NORMAL", normal}, {"COLOR_0", color}}},
-                      {"indices", index},
-                      {"material", 0}};
+    Json primitive = {
+        {"attributes", {{"POSITION", position}, {"NORMAL", normal}, {"COLOR_0", color}}},
+        {"indices", index},
+        {"material", 0}};
     json_["meshes"].push_back({{"name", name}, {"primitives", Json::array({primitive})}});
   }
 

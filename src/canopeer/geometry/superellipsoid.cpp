@@ -24,7 +24,9 @@ GaugeParts gauge_parts(const Superellipsoid& body, const Vec3& q) {
   const double across = std::pow(a + b, body.e2 / body.e1);
   const double along = std::pow(s.z(), 2.0 / body.e1);
   const double f = across + along;
-  const auto away_from_zero = [](double v) { return std::copysign(std::max(std::abs(v), kTiny * 1e-2), v); };
+  const auto away_from_zero = [](double v) {
+    return std::copysign(std::max(std::abs(v), kTiny * 1e-2), v);
+  };
   GaugeParts parts;
   parts.gauge = std::pow(f, 0.5 * body.e1);
   parts.gradient = {across / f * a / (a + b) / away_from_zero(q.x()),
@@ -62,8 +64,8 @@ std::vector<SurfacePoint> Superellipsoid::surface_samples(int count) const {
   for (const Vec3& direction : fibonacci_directions(count)) {
     const Vec3 q = direction.cwiseProduct(semi_axes_m);
     const GaugeParts parts = gauge_parts(*this, q);
-    samples.push_back({T_world_body * (q / parts.gauge),
-                       T_world_body.linear() * parts.gradient.normalized()});
+    samples.push_back(
+        {T_world_body * (q / parts.gauge), T_world_body.linear() * parts.gradient.normalized()});
   }
   return samples;
 }

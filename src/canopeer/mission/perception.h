@@ -30,8 +30,8 @@ class Perception {
  public:
   explicit Perception(const MissionOptions& options);
 
-  /// The robot stands somewhere new: distances are wanted around its base from now on. Where unknown
-  /// space blocks, `known_free_world` is free before anything was seen of it.
+  /// The robot stands somewhere new: distances are wanted around its base from now on. Where
+  /// unknown space blocks, `known_free_world` is free before anything was seen of it.
   void move_field(const Vec3& base_world, const Box& known_free_world = Box());
 
   /// Detects, fuses, and brings the targets inside `region_world` up to date. The fruit map, which

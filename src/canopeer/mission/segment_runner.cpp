@@ -93,8 +93,7 @@ Expected<void> SegmentRunner::observe(TargetKind kind, std::optional<std::int64_
   auto frame = context_.timer.time("camera", [&] { return context_.ports.camera->capture(); });
   if (!frame) return fail_in("camera", frame.error());
   if (context_.options.mask_robot) {
-    self_filter_.mask(*frame, context_.ports.arm->configuration(),
-                      context_.ports.trolley->state());
+    self_filter_.mask(*frame, context_.ports.arm->configuration(), context_.ports.trolley->state());
   }
   WorkMeter work;
   auto observed = context_.background.alone([&] {

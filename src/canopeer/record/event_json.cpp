@@ -97,9 +97,8 @@ SegmentEvent to_segment(const Json& json) {
 Json from(const ViewEvent& view) {
   Json fruits = Json::array();
   for (const FruitSnapshot& fruit : view.fruits) {
-    fruits.push_back(Json::array(
-        {fruit.id, fruit.centre.x(), fruit.centre.y(), fruit.centre.z(), fruit.volume_cm3,
-         fruit.confidence}));
+    fruits.push_back(Json::array({fruit.id, fruit.centre.x(), fruit.centre.y(), fruit.centre.z(),
+                                  fruit.volume_cm3, fruit.confidence}));
   }
   Json pixels;
   if (view.pixels) pixels = {view.pixels->right, view.pixels->wrong, view.pixels->missed};

@@ -68,7 +68,7 @@ struct ViewEvent {
   std::int64_t realised_gain =
       0;  ///< voxels that were unknown before this frame and are known after it
   std::int64_t fused_points = 0;
-  std::int64_t roi_voxels = 0;  ///< distinct ROI voxels in the map after the frame
+  std::int64_t roi_voxels = 0;      ///< distinct ROI voxels in the map after the frame
   std::optional<PixelHits> pixels;  ///< nothing when frames come without labels
   int graph_nodes = 0;
   int graph_edges = 0;

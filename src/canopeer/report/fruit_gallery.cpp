@@ -73,12 +73,14 @@ std::string points_svg(const GalleryFruit& fruit, const View& view) {
     const Point2 p = view.at(fruit.points[i]);
     if ((p - view.middle).cwiseAbs().maxCoeff() > 0.5 * kViewPx) continue;
     const Rgb c = i < fruit.colors.size() ? fruit.colors[i] : Rgb{120, 120, 120};
-    svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"1.6\" fill=\"#{:02x}{:02x}{:02x}\"/>",
-                       p.x(), p.y(), c.r, c.g, c.b);
+    svg +=
+        fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"1.6\" fill=\"#{:02x}{:02x}{:02x}\"/>",
+                    p.x(), p.y(), c.r, c.g, c.b);
   }
   for (const Vec3& m : fruit.missing) {
     const Point2 p = view.at(m);
-    svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"1.2\" class=\"unseen\"/>", p.x(), p.y());
+    svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"1.2\" class=\"unseen\"/>", p.x(),
+                       p.y());
   }
   return svg + "\n";
 }
@@ -116,7 +118,8 @@ std::string card_svg(const GalleryFruit& fruit, const Point2& corner) {
   std::string volume = fmt::format("{:.0f} ± {:.0f} cm³", e.volume_cm3, e.volume_sd_cm3);
   if (fruit.truth) volume += fmt::format(" (true {:.0f})", fruit.truth->volume_cm3);
   svg += fmt::format(
-      "<text x=\"{0:.1f}\" y=\"{1:.1f}\">{3}</text>\n<text x=\"{0:.1f}\" y=\"{2:.1f}\">{4:.0f} % seen, "
+      "<text x=\"{0:.1f}\" y=\"{1:.1f}\">{3}</text>\n<text x=\"{0:.1f}\" y=\"{2:.1f}\">{4:.0f} % "
+      "seen, "
       "confidence {5:.2f}</text>\n",
       corner.x(), corner.y() + 29.0, corner.y() + 45.0, volume, 100.0 * e.seen_share, e.confidence);
   const Point2 views = corner + Point2(0.0, kTextPx - 10.0);
@@ -140,7 +143,8 @@ std::string fruit_gallery_svg(const std::vector<GalleryFruit>& fruits, int width
   const double height = std::max(1.0, rows * kCardHeight);
   std::string svg = fmt::format(
       "<svg class=\"gallery\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
-      "width=\"{0:.0f}\" height=\"{1:.0f}\" role=\"img\">\n<title>Fitted shapes over the points they "
+      "width=\"{0:.0f}\" height=\"{1:.0f}\" role=\"img\">\n<title>Fitted shapes over the points "
+      "they "
       "were fitted to</title>\n<style>{2}{3}</style>\n",
       width, height, stand_alone ? plot_style() : "", kGalleryStyle);
   if (stand_alone) svg += "<rect width=\"100%\" height=\"100%\" style=\"fill:var(--card)\"/>\n";

@@ -62,9 +62,9 @@ std::string map_section(const ReportData& data) {
 std::string fruit_list_section(const ReportData& data) {
   const RunFiles& files = data.files;
   const bool scored = !files.truth.empty();
-  std::vector<std::string> head = {"Fruit",          "x / m",        "y / m",  "z / m",
-                                   "a × b × c / mm", "volume / cm³", "seen / %",
-                                   "views", "ripeness", "confidence", "row place"};
+  std::vector<std::string> head = {"Fruit",          "x / m",        "y / m",    "z / m",
+                                   "a × b × c / mm", "volume / cm³", "seen / %", "views",
+                                   "ripeness",       "confidence",   "row place"};
   if (scored) head.emplace_back("is");
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < files.fruits.size(); ++i) {
@@ -75,8 +75,7 @@ std::string fruit_list_section(const ReportData& data) {
                     fmt::format("{:.0f} × {:.0f} × {:.0f}", axes_mm.x(), axes_mm.y(), axes_mm.z()),
                     fmt::format("{:.0f} ± {:.0f}", f.volume_cm3, f.volume_sd_cm3),
                     fmt::format("{:.0f}", 100.0 * f.seen_share), count_text(f.views),
-                    ripeness_name(f.ripeness), fmt::format("{:.2f}", f.confidence),
-                    place_cell(f)});
+                    ripeness_name(f.ripeness), fmt::format("{:.2f}", f.confidence), place_cell(f)});
     if (scored) rows.back().push_back(verdict_cell(data.verdicts[i], files));
   }
   if (rows.empty()) return "<section><p class=\"note\">No fruit was reported.</p></section>\n";

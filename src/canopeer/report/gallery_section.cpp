@@ -84,10 +84,10 @@ std::string gallery_section(const ReportData& data) {
   const auto sheet = [](const std::vector<GalleryFruit>& fruits) {
     return "<div class=\"scroll\">" + fruit_gallery_svg(fruits, kWidthPx, false) + "</div>\n";
   };
-  std::string html =
-      fmt::format("<p class=\"note\">The worst {} first. Dots: the surface seen, in its colours. "
-                  "Solid line: the fitted shape; pale dots on it: surface nobody saw.{}</p>\n",
-                  worst.size(), data.files.truth.empty() ? "" : " Dashed: the true size.");
+  std::string html = fmt::format(
+      "<p class=\"note\">The worst {} first. Dots: the surface seen, in its colours. "
+      "Solid line: the fitted shape; pale dots on it: surface nobody saw.{}</p>\n",
+      worst.size(), data.files.truth.empty() ? "" : " Dashed: the true size.");
   html += sheet(worst);
   if (!others.empty()) {
     html += html_details(fmt::format("The other {} fruits", others.size()), sheet(others));

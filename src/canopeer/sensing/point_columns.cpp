@@ -39,25 +39,26 @@ double load_as_double(NumberType type, const char* bytes, ByteOrder order) {
 }
 
 std::optional<Column> column_named(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, Column>, 19> kNames = {{{"x", Column::x},
-                                                                           {"y", Column::y},
-                                                                           {"z", Column::z},
-                                                                           {"nx", Column::nx},
-                                                                           {"ny", Column::ny},
-                                                                           {"nz", Column::nz},
-                                                                           {"normal_x", Column::nx},
-                                                                           {"normal_y", Column::ny},
-                                                                           {"normal_z", Column::nz},
-                                                                           {"red", Column::red},
-                                                                           {"green", Column::green},
-                                                                           {"blue", Column::blue},
-                                                                           {"r", Column::red},
-                                                                           {"g", Column::green},
-                                                                           {"b", Column::blue},
-                                                                           {"rgb", Column::rgb},
-                                                                           {"rgba", Column::rgb},
-                                                                           {"roi", Column::roi},
-                                                                           {"fruit", Column::fruit}}};
+  constexpr std::array<std::pair<std::string_view, Column>, 19> kNames = {
+      {{"x", Column::x},
+       {"y", Column::y},
+       {"z", Column::z},
+       {"nx", Column::nx},
+       {"ny", Column::ny},
+       {"nz", Column::nz},
+       {"normal_x", Column::nx},
+       {"normal_y", Column::ny},
+       {"normal_z", Column::nz},
+       {"red", Column::red},
+       {"green", Column::green},
+       {"blue", Column::blue},
+       {"r", Column::red},
+       {"g", Column::green},
+       {"b", Column::blue},
+       {"rgb", Column::rgb},
+       {"rgba", Column::rgb},
+       {"roi", Column::roi},
+       {"fruit", Column::fruit}}};
   for (const auto& [known, column] : kNames) {
     if (name == known) return column;
   }

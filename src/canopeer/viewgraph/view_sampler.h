@@ -18,8 +18,8 @@ struct ViewSamplerOptions {
   double max_target_distance_m = 0.6;
   int max_tries =
       12;  ///< for one candidate of a kind: other targets and positions until a view is valid
-  int max_draws = 400;  ///< (target, position) pairs drawn in a try until one is within the
-                        ///< distances
+  int max_draws = 400;        ///< (target, position) pairs drawn in a try until one is within the
+                              ///< distances
   int max_state_checks = 12;  ///< arm configurations of one view tried for collisions
   int rolls = 8;              ///< turns about the optical axis tried; 1: the image is upright
 };
