@@ -54,7 +54,7 @@ class Segment {
 
   void look_from(const Configuration& q) {
     const Ports ports = world.simulation.ports();
-    static_cast<void>(ports.arm->start({ports.arm->configuration(), q}).value());
+    static_cast<void>(ports.arm->start({{ports.arm->configuration(), q}}).value());
     static_cast<void>(ports.arm->finish().value());
     WorkMeter work;
     StageTimer timer;
@@ -349,7 +349,7 @@ void replan(benchmark::State& state) {
       planner_s.push_back(end_s - fused_s);
       state.PauseTiming();
       if (decision.action != Decision::Action::move) continue;
-      static_cast<void>(ports.arm->start(decision.motion.waypoints).value());
+      static_cast<void>(ports.arm->start({decision.motion.waypoints}).value());
       static_cast<void>(ports.arm->finish().value());
       q = ports.arm->configuration();
     }

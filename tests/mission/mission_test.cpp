@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "canopeer/robot/path_timing.h"
 #include "canopeer/scene/worlds.h"
 #include "support/planning_fixture.h"
 
@@ -101,6 +102,43 @@ TEST_F(MissionTest, WorksThroughItsSegmentsInTime) {
   ASSERT_TRUE(read.has_value());
   EXPECT_EQ(read->views.size(), record_.views.size());
   EXPECT_EQ(read->end_s, record_.end_s);
+}
+
+TEST_F(MissionTest, ItsRecordedMotionsKeepAllLimitsAndDoNotStopAtEveryCorner) {
+  // Single views in a dense crop: few can be reached by one straight motion.
+  options_.planner = "rvp";
+  options_.segments = {{TrolleyState{1.0, 0.0}, 2, "side 2"}};
+  options_.segment_time_s = 20.0;
+  const RobotModel& robot = test::test_robot();
+  const Scene dense = make_world(dense_1_world(), 1);
+  Simulation simulation(robot, dense, robot.home("side_2"), TrolleyState{1.0, 0.0}, {});
+  ASSERT_TRUE(run(simulation, simulation.ports()).has_value());
+  const auto read = read_record(directory_);
+  ASSERT_TRUE(read.has_value());
+  const JointLimits& limits = robot.limits();
+  int rounded = 0;
+  for (const MotionEvent& event : read->motions) {
+    if (event.kind == "trolley") continue;
+    JointPath path;
+    path.deviations = event.deviations;
+    for (const auto& q : event.waypoints) {
+      path.waypoints.emplace_back(
+          Eigen::Map<const Eigen::VectorXd>(q.data(), static_cast<Eigen::Index>(q.size())));
+    }
+    rounded += event.deviations.empty() ? 0 : 1;
+    const PathMotion motion(path, limits);
+    EXPECT_NEAR(motion.duration_s(), event.duration_s, 1e-6);
+    EXPECT_FALSE(event.collision);
+    for (double t_s = 0.0; t_s < motion.duration_s(); t_s += 0.002) {
+      const Configuration q = motion.at(t_s);
+      const Configuration speed = motion.velocity_at(t_s).cwiseAbs();
+      const Configuration acceleration = motion.acceleration_at(t_s).cwiseAbs();
+      ASSERT_TRUE((speed.array() <= limits.velocity.array() * (1.0 + 1e-9)).all());
+      ASSERT_TRUE((acceleration.array() <= limits.acceleration.array() * (1.0 + 1e-9)).all());
+      ASSERT_TRUE(robot.within_limits(q));
+    }
+  }
+  EXPECT_GT(rounded, 0);
 }
 
 TEST_F(MissionTest, AnArmThatStopsBesideItsGoalStillGetsItsJobDone) {

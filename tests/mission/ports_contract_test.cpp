@@ -13,7 +13,7 @@ TEST(PortsContract, AMotionTakesItsTimeAndEndsWhereItSaid) {
   Configuration goal = world.frame.home;
   goal[0] += 0.25;
   const double begin_s = ports.clock->now_s();
-  const auto duration = ports.arm->start({world.frame.home, goal});
+  const auto duration = ports.arm->start({{world.frame.home, goal}});
   ASSERT_TRUE(duration.has_value());
   EXPECT_NEAR(*duration, 1.0, 1e-9);  // 0.25 rad under 1 rad/s²: 2·√(0.25)
   const auto outcome = ports.arm->finish();
@@ -24,13 +24,28 @@ TEST(PortsContract, AMotionTakesItsTimeAndEndsWhereItSaid) {
   EXPECT_FALSE(outcome->collision);
 }
 
+TEST(PortsContract, ItPassesARoundedCornerWithoutStopping) {
+  test::PlanningFixture world;
+  Arm& arm = *world.simulation.ports().arm;
+  Configuration corner = world.frame.home;
+  corner[0] += 0.4;
+  Configuration goal = corner;
+  goal[5] += 0.4;
+  const std::vector<Configuration> waypoints = {world.frame.home, corner, goal};
+  const auto rounded = arm.start({waypoints, {0.0, 0.1, 0.0}});
+  const auto stopping = arm.start({waypoints});
+  ASSERT_TRUE(rounded.has_value() && stopping.has_value());
+  EXPECT_LT(*rounded, 0.95 * *stopping);
+  EXPECT_EQ(arm.finish()->q, goal);
+}
+
 TEST(PortsContract, TimeThatIsPaidDuringAMotionIsNotPaidTwice) {
   test::PlanningFixture world;
   const Ports ports = world.simulation.ports();
   Configuration goal = world.frame.home;
   goal[0] += 0.25;
   const double begin_s = ports.clock->now_s();
-  ASSERT_TRUE(ports.arm->start({world.frame.home, goal}).has_value());
+  ASSERT_TRUE(ports.arm->start({{world.frame.home, goal}}).has_value());
   ports.clock->charge(0.4);
   ASSERT_TRUE(ports.arm->finish().has_value());
   EXPECT_NEAR(ports.clock->now_s() - begin_s, 1.0, 1e-9);
@@ -41,9 +56,9 @@ TEST(PortsContract, AMotionThatDoesNotBeginAtTheArmOrLeavesTheLimitsIsRefused) {
   Arm& arm = *world.simulation.ports().arm;
   Configuration elsewhere = world.frame.home;
   elsewhere[1] += 0.1;
-  EXPECT_FALSE(arm.start({elsewhere, world.frame.home}).has_value());
+  EXPECT_FALSE(arm.start({{elsewhere, world.frame.home}}).has_value());
   elsewhere[2] = 100.0;
-  EXPECT_FALSE(arm.start({world.frame.home, elsewhere}).has_value());
+  EXPECT_FALSE(arm.start({{world.frame.home, elsewhere}}).has_value());
   EXPECT_FALSE(arm.start({}).has_value());
 }
 
@@ -53,7 +68,7 @@ TEST(PortsContract, ACollisionIsNoticed) {
   Arm& arm = *world.simulation.ports().arm;
   Configuration folded = world.frame.home;
   folded[1] = 0.6;  // the upper arm goes down through the lift platform
-  ASSERT_TRUE(arm.start({world.frame.home, folded}).has_value());
+  ASSERT_TRUE(arm.start({{world.frame.home, folded}}).has_value());
   EXPECT_TRUE(arm.finish()->collision);
 }
 

@@ -19,9 +19,9 @@ class StragglingArm : public Arm {
   void miss_next_by(double rad) { miss_rad_ = rad; }
 
   Configuration configuration() const override { return arm_.configuration(); }
-  Expected<double> start(const std::vector<Configuration>& waypoints) override {
-    auto elsewhere = waypoints;
-    elsewhere.back()[0] += std::exchange(miss_rad_, 0.0);
+  Expected<double> start(const JointPath& path) override {
+    JointPath elsewhere = path;
+    elsewhere.waypoints.back()[0] += std::exchange(miss_rad_, 0.0);
     return arm_.start(elsewhere);
   }
   Expected<MotionOutcome> finish() override { return arm_.finish(); }
@@ -149,7 +149,7 @@ TEST_F(FaultsTest, OffThePoseAndNoWayBackThePathIsPlannedFromWhereTheArmIs) {
   // The arm creeps away by itself, and something is in the way back to the path.
   Configuration away = run_.q;
   away[0] += 0.02;
-  ASSERT_TRUE(run_.ports.arm->start({run_.q, away}).has_value());
+  ASSERT_TRUE(run_.ports.arm->start({{run_.q, away}}).has_value());
   ASSERT_TRUE(run_.ports.arm->finish().has_value());
   run_.q = run_.ports.arm->configuration();
   camera_.hang_ball(blocked.T_world_camera.translation(), 0.03);

@@ -40,7 +40,7 @@ class PlannerFixture {
       planner->grow(0.05, work);
     }
     if (last.action != Decision::Action::move) return false;
-    EXPECT_TRUE(ports.arm->start(last.motion.waypoints).has_value());
+    EXPECT_TRUE(ports.arm->start({last.motion.waypoints}).has_value());
     EXPECT_TRUE(ports.arm->finish().has_value());
     q = ports.arm->configuration();
     look();

@@ -67,7 +67,8 @@ std::vector<ViewEvent> write_some_run(const std::filesystem::path& dir) {
     EXPECT_TRUE(writer->end_segment(segment, segment * 3.0 + 3.0));
     EXPECT_TRUE(writer->set_work({{"candidates", 100 * (segment + 1), 0.1}}));
   }
-  EXPECT_TRUE(writer->add(MotionEvent{"home", 1, 6.0, 1.25, {{0.0, 0.1}, {1.0, 0.2}}, 1.1}));
+  EXPECT_TRUE(writer->add(MotionEvent{
+      "home", 1, 6.0, 1.25, {{0.0, 0.1}, {1.0, 0.2}, {1.0, 0.4}}, {0.0, 0.05, 0.0}, 1.1}));
   EXPECT_TRUE(writer->finish(7.5, false));
   return views;
 }
@@ -102,6 +103,7 @@ TEST(RecordFile, ReadsBackEveryEventExactly) {
   }
   ASSERT_EQ(record->motions.size(), 1U);
   EXPECT_EQ(record->motions[0].waypoints[1][0], 1.0);
+  EXPECT_EQ(record->motions[0].deviations, (std::vector<double>{0.0, 0.05, 0.0}));
   ASSERT_EQ(record->work.size(), 1U);
   EXPECT_EQ(record->work[0].count, 200);
   EXPECT_EQ(record->end_s, 7.5);

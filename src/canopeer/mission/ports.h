@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "canopeer/base/expected.h"
+#include "canopeer/robot/joint_path.h"
 #include "canopeer/robot/robot_model.h"
 #include "canopeer/sensing/rgbd_frame.h"
 
@@ -36,10 +37,11 @@ class Arm {
   virtual ~Arm() = default;
   /// Joint positions now, rad.
   [[nodiscard]] virtual Configuration configuration() const = 0;
-  /// Starts a motion along straight lines in joint space between the waypoints, standing still at
-  /// each; the first one is where the arm is. Returns how long it will take, s. The error says what
-  /// the arm refused.
-  [[nodiscard]] virtual Expected<double> start(const std::vector<Configuration>& waypoints) = 0;
+  /// Starts a motion along a path that begins where the arm is, and stands still only where the
+  /// path says so: this path, arcs included, is what was checked for collisions, so no other will
+  /// do (PathMotion times it and gives trajectory points at any rate). Returns how long it will
+  /// take, s. The error says what the arm refused.
+  [[nodiscard]] virtual Expected<double> start(const JointPath& path) = 0;
   /// Waits for the end of the motion started last.
   [[nodiscard]] virtual Expected<MotionOutcome> finish() = 0;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "canopeer/robot/corner_rounding.h"
+
 namespace canopeer {
 namespace {
 
@@ -151,20 +153,24 @@ Expected<void> SegmentRunner::take(const ViewMotion& motion) {
   return observe(motion.kind, motion.predicted_gain);
 }
 
-/// A motion of the arm, with the graph growing meanwhile.
+/// A motion of the arm, with the graph growing meanwhile. It stops where it must only: corners are
+/// rounded as far as the map allows.
 Expected<void> SegmentRunner::move(const std::string& kind,
                                    const std::vector<Configuration>& waypoints) {
   Clock& clock = *context_.ports.clock;
   Arm& arm = *context_.ports.arm;
+  const JointPath path = without_needless_stops(waypoints);
   MotionEvent event;
   event.kind = kind;
   event.segment = index_;
   event.start_s = clock.now_s();
   for (const auto& q : waypoints) event.waypoints.push_back(to_vector(q));
-  for (std::size_t i = 1; i < waypoints.size(); ++i) {
-    event.joint_path_rad += joint_distance(waypoints[i - 1], waypoints[i]);
+  event.deviations = path.deviations;
+  const std::vector<Configuration> points = points_along(path);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    event.joint_path_rad += joint_distance(points[i - 1], points[i]);
   }
-  const auto duration = context_.timer.time("arm", [&] { return arm.start(waypoints); });
+  const auto duration = context_.timer.time("arm", [&] { return arm.start(path); });
   if (!duration) return fail_in("arm", duration.error());
   context_.timer.time("planner: graph", [&] { context_.background.time_passes(*duration); });
   const auto outcome = context_.timer.time("arm", [&] { return arm.finish(); });
@@ -179,6 +185,17 @@ Expected<void> SegmentRunner::move(const std::string& kind,
   if (auto ok = context_.writer.add(event); !ok) return ok;
   context_.record.motions.push_back(std::move(event));
   return {};
+}
+
+JointPath SegmentRunner::without_needless_stops(const std::vector<Configuration>& waypoints) {
+  if (waypoints.size() < 3) return {waypoints};
+  int states = 0;
+  JointPath path = context_.timer.time(
+      "arm", [&] { return round_corners(waypoints, context_.robot.limits(), checker_, states); });
+  WorkMeter work;
+  work.add(Work::motion_plan, states);
+  pay(work);
+  return path;
 }
 
 Expected<void> SegmentRunner::go_home(const Configuration& home) {

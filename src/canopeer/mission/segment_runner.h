@@ -44,6 +44,7 @@ class SegmentRunner {
   [[nodiscard]] Expected<void> take(const ViewMotion& motion);
   [[nodiscard]] Expected<void> move(const std::string& kind,
                                     const std::vector<Configuration>& waypoints);
+  [[nodiscard]] JointPath without_needless_stops(const std::vector<Configuration>& waypoints);
   [[nodiscard]] Expected<void> go_home(const Configuration& home);
   [[nodiscard]] Expected<void> recover();
   Decision decide();

@@ -152,10 +152,12 @@ ViewEvent to_view(const Json& json) {
 }
 
 Json from(const MotionEvent& motion) {
-  return {{"kind", motion.kind},           {"segment", motion.segment},
-          {"start_s", motion.start_s},     {"duration_s", motion.duration_s},
-          {"waypoints", motion.waypoints}, {"joint_path_rad", motion.joint_path_rad},
-          {"collision", motion.collision}, {"plant_contact", motion.plant_contact}};
+  Json json = {{"kind", motion.kind},           {"segment", motion.segment},
+               {"start_s", motion.start_s},     {"duration_s", motion.duration_s},
+               {"waypoints", motion.waypoints}, {"joint_path_rad", motion.joint_path_rad},
+               {"collision", motion.collision}, {"plant_contact", motion.plant_contact}};
+  if (!motion.deviations.empty()) json["deviations"] = motion.deviations;
+  return json;
 }
 
 MotionEvent to_motion(const Json& json) {
@@ -165,6 +167,7 @@ MotionEvent to_motion(const Json& json) {
   motion.start_s = to_number(json.at("start_s"));
   motion.duration_s = to_number(json.at("duration_s"));
   for (const Json& q : json.at("waypoints")) motion.waypoints.push_back(to_numbers(q));
+  if (json.contains("deviations")) motion.deviations = to_numbers(json.at("deviations"));
   motion.joint_path_rad = to_number(json.at("joint_path_rad"));
   motion.collision = json.at("collision").get<bool>();
   motion.plant_contact = json.at("plant_contact").get<bool>();

@@ -82,8 +82,10 @@ struct MotionEvent {
   double start_s = 0.0;
   double duration_s = 0.0;
   std::vector<std::vector<double>>
-      waypoints;                ///< arm joints, rad; straight lines in joint space between them
-  double joint_path_rad = 0.0;  ///< Σ|Δq| along it
+      waypoints;                   ///< arm joints, rad; straight lines in joint space between them
+  std::vector<double> deviations;  ///< how far the path may pass each waypoint in an arc, Euclidean
+                                   ///< joint distance; empty: it stops at each
+  double joint_path_rad = 0.0;     ///< Σ|Δq| along it
   bool collision =
       false;  ///< with the robot itself, the structure, or what was mapped when it started
   bool plant_contact = false;  ///< with a part of a plant that was not mapped yet

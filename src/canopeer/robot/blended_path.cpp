@@ -15,11 +15,21 @@ constexpr double kStraight = 1e-9;        // rad: no corner at all
 
 }  // namespace
 
-BlendedPath::BlendedPath(const std::vector<Configuration>& waypoints, double max_deviation) {
-  CANOPEER_CHECK(!waypoints.empty() && max_deviation >= 0.0, "a path needs a waypoint");
+BlendedPath::BlendedPath(const std::vector<Configuration>& waypoints, double max_deviation)
+    : BlendedPath(JointPath{waypoints, std::vector<double>(waypoints.size(), max_deviation)}) {}
+
+BlendedPath::BlendedPath(const JointPath& path) {
+  CANOPEER_CHECK(!path.waypoints.empty(), "a path needs a waypoint");
+  CANOPEER_CHECK(path.deviations.empty() || path.deviations.size() == path.waypoints.size(),
+                 "a deviation for each waypoint");
   std::vector<Configuration> corners;
-  for (const Configuration& q : waypoints) {
-    if (corners.empty() || (q - corners.back()).norm() > kSamePoint) corners.push_back(q);
+  std::vector<double> deviations;
+  for (std::size_t i = 0; i < path.waypoints.size(); ++i) {
+    const double deviation = path.deviations.empty() ? 0.0 : path.deviations[i];
+    CANOPEER_CHECK(deviation >= 0.0, "a path deviates by no less than nothing");
+    if (!corners.empty() && (path.waypoints[i] - corners.back()).norm() <= kSamePoint) continue;
+    corners.push_back(path.waypoints[i]);
+    deviations.push_back(deviation);
   }
   start_ = corners.front();
   Configuration from = start_;
@@ -33,8 +43,8 @@ BlendedPath::BlendedPath(const std::vector<Configuration>& waypoints, double max
     if (2.0 * half < kStraight) continue;  // the next line goes on where this one does
     double cut = std::min(before.norm(), after.norm()) / 2.0;
     const double sagitta = 1.0 - std::cos(half);  // per unit of cut, times sin(half)
-    if (cut * sagitta > max_deviation * std::sin(half))
-      cut = max_deviation * std::sin(half) / sagitta;
+    if (cut * sagitta > deviations[i] * std::sin(half))
+      cut = deviations[i] * std::sin(half) / sagitta;
     const double radius = cut / std::tan(half);
     if (!(radius > kSmallestRadius)) {
       add_line(from, corners[i], true);

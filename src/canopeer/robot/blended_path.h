@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "canopeer/robot/configuration.h"
+#include "canopeer/robot/joint_path.h"
 
 namespace canopeer {
 
@@ -25,7 +25,9 @@ class BlendedPath {
     bool stops = false;    ///< the piece ends in a corner, or the path ends with it
   };
 
-  /// At least one waypoint, all of one size; repeated ones count once. `max_deviation` ≥ 0.
+  /// At least one waypoint, all of one size; repeated ones count once. Deviations ≥ 0.
+  explicit BlendedPath(const JointPath& path);
+  /// The same deviation at every waypoint.
   BlendedPath(const std::vector<Configuration>& waypoints, double max_deviation);
 
   /// 0 when all waypoints are one.

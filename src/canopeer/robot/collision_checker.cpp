@@ -18,6 +18,28 @@ constexpr double kRefineBelowM = 0.04;
 /// With no padding an interval counts as looked at when nothing moves farther than this in it.
 constexpr double kSmallestMotionM = 0.001;
 
+/// A straight motion in joint space, s from 0 to 1.
+struct StraightCurve {
+  const Configuration& a;
+  const Configuration& b;
+
+  [[nodiscard]] Configuration at(double s) const { return s == 1.0 ? b : a + s * (b - a); }
+  [[nodiscard]] Configuration speed() const { return (b - a).cwiseAbs(); }
+};
+
+/// An arc in joint space, s from 0 to 1.
+struct ArcCurve {
+  const BlendedPath::Piece& piece;
+
+  [[nodiscard]] Configuration at(double s) const {
+    return BlendedPath::point(piece, piece.begin + s * piece.length);
+  }
+  /// q' = length (y cos − x sin), which no component exceeds in size by more than this.
+  [[nodiscard]] Configuration speed() const {
+    return piece.length * (piece.x.array().square() + piece.y.array().square()).sqrt().matrix();
+  }
+};
+
 /// How far beyond the clearance asked for the voxels near a link's shape are looked at, so that its
 /// clearance is known a little beyond that too.
 constexpr double kShapeMarginM = 0.01;
@@ -242,7 +264,15 @@ bool CollisionChecker::state_free(const Configuration& q) const {
 bool CollisionChecker::edge_free(const Configuration& a, const Configuration& b,
                                  int* states_checked) const {
   int unused = 0;
-  return sweep(a, b, padding_, states_checked == nullptr ? unused : *states_checked);
+  const StraightCurve line{a, b};
+  return sweep(line, line.speed(), padding_, states_checked == nullptr ? unused : *states_checked);
+}
+
+bool CollisionChecker::arc_free(const BlendedPath::Piece& arc, int* states_checked) const {
+  int unused = 0;
+  const ArcCurve curve{arc};
+  return sweep(curve, curve.speed(), padding_,
+               states_checked == nullptr ? unused : *states_checked);
 }
 
 bool CollisionChecker::escape_free(const Configuration& start, const Configuration& to,
@@ -261,10 +291,13 @@ bool CollisionChecker::escape_free(const Configuration& start, const Configurati
     required.map[i] = std::min(options_.map_padding_m, at_start[i] - kSmallestMotionM);
     required.self[i] = std::min(options_.self_padding_m, at_start[i] - kSmallestMotionM);
   }
-  return sweep(start, to, required, checked);
+  const StraightCurve line{start, to};
+  return sweep(line, line.speed(), required, checked);
 }
 
-bool CollisionChecker::sweep(const Configuration& a, const Configuration& b,
+/// `speed`: no joint moves faster than this per unit of the curve's parameter.
+template <typename Curve>
+bool CollisionChecker::sweep(const Curve& curve, const Configuration& speed,
                              const Required& required, int& states_checked) const {
   struct Interval {
     double from = 0.0;
@@ -272,6 +305,8 @@ bool CollisionChecker::sweep(const Configuration& a, const Configuration& b,
     Clearances at_from;
     Clearances at_to;
   };
+  const Configuration a = curve.at(0.0);
+  const Configuration b = curve.at(1.0);
   if (!robot_->within_limits(a) || !robot_->within_limits(b)) return false;
   Interval whole;
   states_checked += 1;
@@ -280,11 +315,10 @@ bool CollisionChecker::sweep(const Configuration& a, const Configuration& b,
   if (!measure(b, required, whole.at_to)) return false;
 
   // What any point of each arm link moves at most from a to b.
-  const Configuration step = (b - a).cwiseAbs();
   Clearances motion{};
   for (std::size_t i = 0; i < arm_links_.size(); ++i) {
     for (std::size_t joint = 0; joint < arm_links_[i].reach_m.size(); ++joint)
-      motion[i] += step[static_cast<int>(joint)] * arm_links_[i].reach_m[joint];
+      motion[i] += speed[static_cast<int>(joint)] * arm_links_[i].reach_m[joint];
   }
   const auto covered = [&](const Interval& interval) {
     const double length = interval.to - interval.from;
@@ -304,7 +338,7 @@ bool CollisionChecker::sweep(const Configuration& a, const Configuration& b,
     const double middle = (interval.from + interval.to) / 2.0;
     Clearances at_middle;
     states_checked += 1;
-    if (!measure(a + middle * (b - a), required, at_middle)) return false;
+    if (!measure(curve.at(middle), required, at_middle)) return false;
     for (const Interval& half : {Interval{interval.from, middle, interval.at_from, at_middle},
                                  Interval{middle, interval.to, at_middle, interval.at_to}}) {
       if (!covered(half)) open.push_back(half);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "canopeer/geometry/pose.h"
+#include "canopeer/robot/blended_path.h"
 #include "canopeer/robot/robot_model.h"
 #include "canopeer/robot/sphere_cover.h"
 
@@ -45,6 +46,9 @@ class CollisionChecker {
   /// state looked at is added to `states_checked` when given.
   [[nodiscard]] bool edge_free(const Configuration& a, const Configuration& b,
                                int* states_checked = nullptr) const;
+
+  /// The same along an arc that rounds the corner of a path.
+  [[nodiscard]] bool arc_free(const BlendedPath::Piece& arc, int* states_checked = nullptr) const;
 
   /// The same for a start that is not free itself, because of what the map learnt since the arm
   /// went there: on the way no link comes nearer to anything than it is at `start` (or its
@@ -94,7 +98,8 @@ class CollisionChecker {
   bool measure_map(const State& state, const Required& required, Clearances& clearances) const;
   double shape_clearance(const State& state, const ArmLink& arm_link, int sphere,
                          double margin_m) const;
-  bool sweep(const Configuration& a, const Configuration& b, const Required& required,
+  template <typename Curve>
+  bool sweep(const Curve& curve, const Configuration& speed, const Required& required,
              int& states_checked) const;
 
   const RobotModel* robot_;

@@ -48,13 +48,13 @@ Range range_of(double at_a, double at_b, double slope_a, double slope_b, double 
 
 class Grid {
  public:
-  Grid(const BlendedPath& path, const JointLimits& limits, const PathTimingOptions& options) {
+  Grid(const BlendedPath& path, const JointLimits& limits, double arc_step_rad) {
     for (std::size_t i = 0; i < path.pieces().size(); ++i) {
       const BlendedPath::Piece& piece = path.pieces()[i];
       const bool arc = piece.radius > 0.0;
-      const int count = arc ? std::max(2, static_cast<int>(std::ceil(piece.length / piece.radius /
-                                                                     options.arc_step_rad)))
-                            : 1;
+      const int count =
+          arc ? std::max(2, static_cast<int>(std::ceil(piece.length / piece.radius / arc_step_rad)))
+              : 1;
       for (int k = 0; k < count; ++k) {
         Interval interval;
         interval.length = piece.length / count;
@@ -180,21 +180,23 @@ class Grid {
 
 PathMotion::PathMotion(const std::vector<Configuration>& waypoints, const JointLimits& limits,
                        const PathTimingOptions& options)
-    : path_(waypoints, options.max_deviation), end_(waypoints.back()) {
-  time_path(limits, options);
+    : PathMotion(JointPath{waypoints, std::vector<double>(waypoints.size(), options.max_deviation)},
+                 limits, options.arc_step_rad) {}
+
+PathMotion::PathMotion(const JointPath& path, const JointLimits& limits, double arc_step_rad)
+    : path_(path), end_(path.waypoints.back()) {
+  time_path(limits, arc_step_rad);
   const bool rounded = std::any_of(path_.pieces().begin(), path_.pieces().end(),
                                    [](const auto& piece) { return piece.radius > 0.0; });
   if (!rounded) return;
   // A tight arc is passed slowly by a joint of little acceleration: stopping may be faster.
-  PathTimingOptions stopping = options;
-  stopping.max_deviation = 0.0;
-  PathMotion other(waypoints, limits, stopping);
+  PathMotion other(JointPath{path.waypoints}, limits, arc_step_rad);
   if (other.duration_s() < duration_s()) *this = std::move(other);
 }
 
-void PathMotion::time_path(const JointLimits& limits, const PathTimingOptions& options) {
-  CANOPEER_CHECK(options.arc_step_rad > 0.0, "arcs are cut into steps");
-  const Grid grid(path_, limits, options);
+void PathMotion::time_path(const JointLimits& limits, double arc_step_rad) {
+  CANOPEER_CHECK(arc_step_rad > 0.0, "arcs are cut into steps");
+  const Grid grid(path_, limits, arc_step_rad);
   const std::vector<Interval>& intervals = grid.intervals();
   if (intervals.empty()) return;
   const std::size_t count = intervals.size();

@@ -26,6 +26,8 @@ class PathMotion {
   /// path keeps its corners where that is faster on the whole.
   PathMotion(const std::vector<Configuration>& waypoints, const JointLimits& limits,
              const PathTimingOptions& options = {});
+  /// The same with a deviation for each waypoint.
+  PathMotion(const JointPath& path, const JointLimits& limits, double arc_step_rad = 0.05);
 
   [[nodiscard]] double duration_s() const { return times_s_.empty() ? 0.0 : times_s_.back(); }
   /// Position, velocity and acceleration at a time, held to [0, duration_s()].
@@ -35,7 +37,7 @@ class PathMotion {
   [[nodiscard]] const BlendedPath& path() const { return path_; }
 
  private:
-  void time_path(const JointLimits& limits, const PathTimingOptions& options);
+  void time_path(const JointLimits& limits, double arc_step_rad);
   struct Instant {  // place, speed and acceleration along the path
     int piece = 0;
     double s = 0.0;

@@ -221,7 +221,7 @@ class Bench {
 
   RgbdFrame capture(const Configuration& q) {
     const Ports ports = simulation_.ports();
-    const auto started = ports.arm->start({ports.arm->configuration(), q});
+    const auto started = ports.arm->start({{ports.arm->configuration(), q}});
     CANOPEER_CHECK(started.has_value() && ports.arm->finish().has_value(),
                    "a motion within limits");
     auto frame = ports.camera->capture();

@@ -4,6 +4,7 @@
 
 #include "canopeer/base/rng.h"
 #include "canopeer/render/renderer.h"
+#include "canopeer/robot/corner_rounding.h"
 #include "canopeer/robot/straight_timing.h"
 #include "canopeer/sim/simulation_time.h"
 
@@ -60,19 +61,18 @@ class Simulation::SimArm : public Arm {
 
   Configuration configuration() const override { return state_.q; }
 
-  Expected<double> start(const std::vector<Configuration>& waypoints) override {
+  Expected<double> start(const JointPath& path) override {
+    const std::vector<Configuration>& waypoints = path.waypoints;
     if (waypoints.empty() || joint_distance(waypoints.front(), state_.q) > 1e-6) {
       return fail("a motion must begin where the arm is");
     }
-    double duration_s = 0.0;
-    for (std::size_t i = 0; i < waypoints.size(); ++i) {
-      if (!state_.robot.within_limits(waypoints[i]))
-        return fail("a waypoint is beyond the joint limits");
-      if (i > 0) duration_s += motion_time(waypoints[i - 1], waypoints[i], state_.robot.limits());
+    for (const Configuration& q : waypoints) {
+      if (!state_.robot.within_limits(q)) return fail("a waypoint is beyond the joint limits");
     }
+    const double duration_s = motion_time(path, state_.robot.limits());
     // Judged now, on the map as it is when the motion starts.
     const auto pause = state_.time.pause();
-    const Verdict verdict = state_.judge.judge(waypoints, state_.trolley, state_.map);
+    const Verdict verdict = state_.judge.judge(points_along(path), state_.trolley, state_.map);
     outcome_ = {with_arrival_error(waypoints.back()), verdict.collision, verdict.plant_contact};
     end_s_ = state_.time.now_s() + duration_s;
     return duration_s;
