@@ -89,8 +89,7 @@ TEST(Occlusion, ThePapersPlantsHideTheirFruitsAsMeasured) {
   };
   EXPECT_NEAR(middle(best), 0.94, 0.08);
   EXPECT_NEAR(middle(median), 0.73, 0.08);
-  // A share that spreads this widely (0.3) has a median known to 1.25 · 1.96 · 0.3 / √47 only.
-  EXPECT_NEAR(middle(frontal), 0.73, 0.11);
+  EXPECT_NEAR(middle(frontal), 0.73, 0.08);
   EXPECT_NEAR(middle(share), 0.90, 0.08);
   EXPECT_NEAR(middle(whole), 0.80, 0.08);
 }
@@ -113,8 +112,8 @@ TEST(Occlusion, IsTheSameWithOneThreadAndWithTwo) {
   }
 }
 
-// Of the fruits of a dense crop that no level view in front shows to 30 %, other views show four in
-// five. The quarter of all fruits that was aimed at is not reached.
+// A quarter of the fruits of a dense crop are shown to 30 % by no level view in front; other views
+// show four in five of these.
 TEST(Occlusion, DenseCropsHideFruitsThatOtherViewsFind) {
   int fruits = 0;
   int hidden = 0;
@@ -124,7 +123,7 @@ TEST(Occlusion, DenseCropsHideFruitsThatOtherViewsFind) {
     const OcclusionProbe probe(scene);
     RingOptions ring;
     ring.top_m = scene.bounds(true).max().z();
-    for (const FruitVisibility& f : visibilities(scene, probe, 60, [&](const FruitTruth& fruit) {
+    for (const FruitVisibility& f : visibilities(scene, probe, 300, [&](const FruitTruth& fruit) {
            return ring_positions(fruit.centre, ring);
          })) {
       ++fruits;
@@ -132,7 +131,7 @@ TEST(Occlusion, DenseCropsHideFruitsThatOtherViewsFind) {
       reachable += f.best_frontal_level < 0.3 && f.best >= 0.3;
     }
   }
-  EXPECT_GT(hidden, 0.02 * fruits);
+  EXPECT_NEAR(hidden / static_cast<double>(fruits), 0.25, 0.05);
   EXPECT_GE(reachable, 0.8 * hidden);
 }
 

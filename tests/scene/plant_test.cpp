@@ -120,7 +120,8 @@ TEST(Plant, FruitSizesAndHeightsHaveTheMeasuredMeans) {
   EXPECT_NEAR(length / count, 0.074, 0.003);
   EXPECT_NEAR(diameter / count, 0.068, 0.003);
   EXPECT_NEAR(volume / count, 154.0, 15.0);
-  EXPECT_NEAR(height / count, 0.43, 0.03);
+  // Of kind 5, the tallest; Population holds all kinds to it more closely.
+  EXPECT_NEAR(height / count, 0.43, 0.043);
   EXPECT_GT(towards_minus_x, 0.6 * count);  // 26 of 34 on the −x side of the shoot
 }
 

@@ -57,6 +57,13 @@ void adjust_count(std::size_t count, Rng& rng, std::vector<Slot>* slots) {
   }
 }
 
+/// Petioles bend towards the aisle that their shoot leans to, where the light is.
+void turn_to_light(const PlantKind& kind, const Shoot& shoot, Slot* slot) {
+  const Vec3 lean = shoot.axis.back().position - shoot.axis.front().position;
+  slot->azimuth_rad +=
+      kind.light_turn_rad * std::sin(std::atan2(lean.y(), lean.x()) - slot->azimuth_rad);
+}
+
 /// Leaf area comes out at the kind's figure, give or take a plant's own variation.
 void scale_to_area(double area_m2, Rng& rng, std::vector<PlacedLeaf>* leaves) {
   double sum = 0.0;
@@ -117,7 +124,7 @@ void keep_above_ground(PlacedLeaf* leaf) {
 }  // namespace
 
 std::vector<PlacedLeaf> place_leaves(const PlantKind& kind, const std::vector<Shoot>& shoots,
-                                     const std::vector<HangingFruit>& fruits, Rng& rng) {
+                                     Rng& rng) {
   std::vector<Slot> slots;
   for (std::size_t i = 0; i < shoots.size(); ++i) {
     const double lowest = shoots[i].fork ? 0.06 : std::min(0.08, 0.2 * shoots[i].length_m);
@@ -125,6 +132,7 @@ std::vector<PlacedLeaf> place_leaves(const PlantKind& kind, const std::vector<Sh
     slots.insert(slots.end(), nodes.begin(), nodes.end());
   }
   adjust_count(static_cast<std::size_t>(kind.leaves), rng, &slots);
+  for (Slot& slot : slots) turn_to_light(kind, shoots[slot.shoot], &slot);
 
   std::vector<PlacedLeaf> leaves;
   for (const Slot& slot : slots) {
@@ -132,17 +140,21 @@ std::vector<PlacedLeaf> place_leaves(const PlantKind& kind, const std::vector<Sh
     leaf.form = draw_leaf(slot.below_tip_m, slot.in_pair, slot.second, rng);
     leaf.form.azimuth_rad = slot.azimuth_rad;
     leaf.below_tip_m = slot.below_tip_m;
+    leaf.form.blade_pitch_rad = std::max(-1.45, leaf.form.blade_pitch_rad - kind.droop_rad);
     const Shoot& shoot = shoots[slot.shoot];
     leaf.node = shoot.at(shoot.length_m - slot.below_tip_m).position;
     leaves.push_back(leaf);
   }
   scale_to_area(kind.leaf_area_m2, rng, &leaves);
-  for (PlacedLeaf& leaf : leaves) {
-    keep_above_ground(&leaf);
+  for (PlacedLeaf& leaf : leaves) keep_above_ground(&leaf);
+  return leaves;
+}
+
+void make_room(const std::vector<HangingFruit>& fruits, Rng& rng, std::vector<PlacedLeaf>* leaves) {
+  for (PlacedLeaf& leaf : *leaves) {
     turn_away(fruits, rng, &leaf);
     keep_above_ground(&leaf);
   }
-  return leaves;
 }
 
 }  // namespace canopeer

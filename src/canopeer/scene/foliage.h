@@ -17,9 +17,11 @@ struct PlacedLeaf {
 };
 
 /// Places the kind's leaves on its shoots: one a node, pairs near the tips, divergence angles and
-/// internodes as measured; sizes are scaled to the kind's leaf area. Leaves turn away from fruits
-/// they would cut.
+/// internodes as measured; sizes are scaled to the kind's leaf area.
 std::vector<PlacedLeaf> place_leaves(const PlantKind& kind, const std::vector<Shoot>& shoots,
-                                     const std::vector<HangingFruit>& fruits, Rng& rng);
+                                     Rng& rng);
+
+/// Turns leaves away from fruits they would cut.
+void make_room(const std::vector<HangingFruit>& fruits, Rng& rng, std::vector<PlacedLeaf>* leaves);
 
 }  // namespace canopeer

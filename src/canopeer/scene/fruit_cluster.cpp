@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "canopeer/base/check.h"
+#include "canopeer/scene/canopy_cover.h"
 #include "canopeer/scene/statistics.h"
 
 namespace canopeer {
@@ -78,24 +79,46 @@ std::optional<HangingFruit> try_hang(const PlantKind& kind, const std::vector<Sh
   return fruit;
 }
 
-/// Hangs one more fruit beside those already there; false when there is no room left.
-bool hang_one(const PlantKind& kind, const std::vector<Shoot>& shoots, Ripeness ripeness, Rng& rng,
-              std::vector<HangingFruit>* fruits) {
+/// Finds room for one more fruit beside those already there.
+std::optional<HangingFruit> find_room(const PlantKind& kind, const std::vector<Shoot>& shoots,
+                                      Ripeness ripeness, const std::vector<HangingFruit>& fruits,
+                                      Rng& rng) {
   for (int attempt = 0; attempt < 400; ++attempt) {
     const auto fruit = try_hang(kind, shoots, ripeness, rng);
-    if (fruit && std::all_of(fruits->begin(), fruits->end(),
+    if (fruit && std::all_of(fruits.begin(), fruits.end(),
                              [&](const HangingFruit& f) { return bodies_apart(f, *fruit); })) {
-      fruits->push_back(*fruit);
-      return true;
+      return fruit;
     }
   }
-  return false;
+  return std::nullopt;
+}
+
+/// Hangs one more fruit; false when there is no room left. A sheltered one takes the place that
+/// leaves hide best.
+bool hang_one(const PlantKind& kind, const std::vector<Shoot>& shoots, const CanopyCover& cover,
+              Ripeness ripeness, Rng& rng, std::vector<HangingFruit>* fruits) {
+  constexpr int kPlaces = 24;
+  const int places = rng.chance(kind.sheltered) ? kPlaces : 1;
+  std::optional<HangingFruit> best;
+  double least = 0.0;
+  for (int i = 0; i < places; ++i) {
+    const auto fruit = find_room(kind, shoots, ripeness, *fruits, rng);
+    if (!fruit) continue;
+    const double shown = places == 1 ? 0.0
+                                     : cover.shown_level(fruit->T_plant_fruit.translation(),
+                                                         0.5 * fruit->form.diameter_m);
+    if (best && shown >= least) continue;
+    best = fruit;
+    least = shown;
+  }
+  if (best) fruits->push_back(*best);
+  return best.has_value();
 }
 
 }  // namespace
 
 std::vector<HangingFruit> hang_fruits(const PlantKind& kind, const std::vector<Shoot>& shoots,
-                                      Rng& rng) {
+                                      const CanopyCover& cover, Rng& rng) {
   const int total = kind.counted_fruits + kind.green_fruits;
   for (int attempt = 0; attempt < 50; ++attempt) {
     std::vector<HangingFruit> fruits;
@@ -104,7 +127,7 @@ std::vector<HangingFruit> hang_fruits(const PlantKind& kind, const std::vector<S
       const Ripeness ripeness = i >= kind.counted_fruits ? Ripeness::green
                                 : rng.chance(0.7)        ? Ripeness::ripe
                                                          : Ripeness::turning;
-      room = hang_one(kind, shoots, ripeness, rng, &fruits);
+      room = hang_one(kind, shoots, cover, ripeness, rng, &fruits);
     }
     if (room) return fruits;
   }

@@ -17,10 +17,13 @@ struct HangingFruit {
   Vec3 pedicel_start = Vec3::Zero();  ///< on the shoot's axis
 };
 
+class CanopyCover;
+
 /// Hangs the kind's fruits on its shoots: heights, distance to the shoot and tilt as measured,
-/// centres at least 6.9 cm apart, no two bodies touching, none cutting a shoot.
+/// centres at least 6.9 cm apart, no two bodies touching, none cutting a shoot. The kind's
+/// sheltered ones take the best hidden of several places.
 std::vector<HangingFruit> hang_fruits(const PlantKind& kind, const std::vector<Shoot>& shoots,
-                                      Rng& rng);
+                                      const CanopyCover& cover, Rng& rng);
 
 /// Pedicel as a closed tube from the shoot to the fruit's top.
 TriangleMesh make_pedicel(const HangingFruit& fruit);

@@ -128,7 +128,7 @@ LeafForm draw_leaf(double below_tip_m, bool in_pair, bool second, Rng& rng) {
       kDegree * std::clamp(row.petiole_pitch_deg + up + rng.normal(0.0, 12.0), -45.0, 85.0);
   leaf.blade_pitch_rad =
       kDegree * clipped_normal(rng, row.blade_pitch_deg + up, row.blade_pitch_sd_deg, -85.0, 80.0);
-  leaf.bend_rad = clipped_normal(rng, 1.40, 0.25, 0.75, 2.05);
+  leaf.bend_rad = clipped_normal(rng, 1.47, 0.25, 0.80, 2.10);
   leaf.roll_rad = roll_of(below_tip_m, rng.normal(0.0, 1.0));
   leaf.twist_rad = rng.normal(0.0, 0.32);
   leaf.fold_rad = clipped_normal(rng, 0.21, 0.12, -0.1, 0.6);

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "canopeer/scene/canopy_cover.h"
 #include "canopeer/scene/plant_colors.h"
 
 namespace canopeer {
@@ -51,8 +52,9 @@ void add_fruit(const HangingFruit& hanging, Rng& rng, Plant* plant) {
 Plant grow_plant(const PlantKind& kind, Rng& rng) {
   Plant plant;
   plant.shoots = grow_shoots(kind, rng);
-  const auto fruits = hang_fruits(kind, plant.shoots, rng);
-  plant.leaves = place_leaves(kind, plant.shoots, fruits, rng);
+  plant.leaves = place_leaves(kind, plant.shoots, rng);
+  const auto fruits = hang_fruits(kind, plant.shoots, CanopyCover(plant.leaves), rng);
+  make_room(fruits, rng, &plant.leaves);
   for (const Shoot& shoot : plant.shoots) {
     plant.parts.push_back(make_part(make_tube(shoot.axis, 8), PartClass::stem, stem_color(rng)));
   }

@@ -30,7 +30,7 @@ namespace {
 PlantKind draw_dense(Rng& rng) {
   PlantKind kind;
   kind.number = 0;
-  kind.height_m = rng.uniform(2.1, 2.9);
+  kind.height_m = rng.uniform(2.0, 2.7);
   kind.stems = 2;
   kind.stem_radius_m = rng.uniform(0.010, 0.012);
   kind.shoot_length_m = 2.0 * (kind.height_m - 0.04);
@@ -43,6 +43,10 @@ PlantKind draw_dense(Rng& rng) {
   kind.fruit_low_m = 0.30;
   kind.fruit_high_m = kind.height_m - 0.55;
   kind.minus_x_share = 0.5;
+  // Chosen so that level views hide a quarter of the fruits, which other views show.
+  kind.sheltered = 0.75;
+  kind.light_turn_rad = 0.7;
+  kind.droop_rad = 0.26;
   return kind;
 }
 

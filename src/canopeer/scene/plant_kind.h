@@ -25,6 +25,10 @@ struct PlantKind {
   double fruit_high_m = 0.0;
   /// Share of the fruits on the −x side of their shoot. The paper's lean that way.
   double minus_x_share = 0.85;
+  /// Share of the fruits that grew where leaves hide them best from level views.
+  double sheltered = 0.0;
+  double light_turn_rad = 0.0;  ///< largest turn of a petiole towards its shoot's aisle
+  double droop_rad = 0.0;       ///< large leaves hang this much steeper than the measured ones
 };
 
 /// The figures of kind `number`; 1 ≤ number ≤ 9.
