@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "canopeer/map/simd_level.h"
+#include "canopeer/base/simd_level.h"
 
 namespace canopeer {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "canopeer/map/simd_level.h"
+#include "canopeer/base/simd_level.h"
 #include "canopeer/map/voxel_map.h"
 
 namespace canopeer {

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "canopeer/map/simd_level.h"
+#include "canopeer/base/simd_level.h"
 
 // A kernel is one body, written as plain loops and inlined into one function per instruction set;
 // the compiler turns the loops into that set's vectors. Nothing is summed in another order and no

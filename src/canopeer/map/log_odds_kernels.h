@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
+#include "canopeer/base/simd_level.h"
 #include "canopeer/map/block.h"
-#include "canopeer/map/simd_level.h"
 
 namespace canopeer {
 

@@ -6,73 +6,23 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
+#include <mutex>
+#include <optional>
+#include <span>
 
 #include "canopeer/base/check.h"
 #include "canopeer/render/pixel_hash.h"
+#include "canopeer/render/rasterizer.h"
 #include "canopeer/render/ray_caster.h"
-#include "canopeer/render/shading.h"
+#include "canopeer/render/row_painter.h"
 
 namespace canopeer {
 namespace {
-
-constexpr int kBlock = 8;  // pixels a side: one packet of rays
-static_assert(kBlock * kBlock == RayCaster::kPacket);
-
-/// What all pixels of a view share.
-struct View {
-  const CameraRays& rays;
-  const CameraIntrinsics& camera;
-  Eigen::Vector3f origin;
-  Eigen::Matrix3d R_world_camera;
-  std::uint64_t noise_key;
-};
-
-/// One block of pixels, cut off at the image's border.
-struct Block {
-  std::array<RayCaster::Ray, RayCaster::kPacket> rays;
-  std::array<RayCaster::Hit, RayCaster::kPacket> hits;
-  std::array<bool, RayCaster::kPacket> shadowed{};
-  std::array<std::array<int, 2>, RayCaster::kPacket> pixels;
-  std::size_t count = 0;
-};
 
 std::uint64_t key_of(std::uint64_t seed, const Pose& pose) {
   std::uint64_t key = pixel_hash(seed);
   for (int i = 0; i < 16; ++i) key = pixel_hash(key ^ std::bit_cast<std::uint64_t>(pose.data()[i]));
   return key;
-}
-
-Block make_block(const View& view, int u0, int v0) {
-  Block block;
-  for (int v = v0; v < std::min(v0 + kBlock, view.camera.height); ++v) {
-    for (int u = u0; u < std::min(u0 + kBlock, view.camera.width); ++u) {
-      // The direction's component along the optical axis is 1: distances are depths.
-      const Vec3 direction = view.R_world_camera * view.rays.ray(u, v);
-      block.rays[block.count] = {view.origin, direction.cast<float>()};
-      block.pixels[block.count++] = {u, v};
-    }
-  }
-  return block;
-}
-
-/// Triangular noise in −1 … 1 from 16 bits.
-float triangular(std::uint64_t bits) {
-  return (static_cast<float>(bits & 0xff) + static_cast<float>((bits >> 8) & 0xff)) / 255.0F - 1.0F;
-}
-
-Rgb to_rgb(const Eigen::Vector3f& color, float noise, std::uint64_t bits) {
-  std::array<std::uint8_t, 3> c{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const float x = color[static_cast<Eigen::Index>(i)] + noise * triangular(bits >> (16 * i));
-    c[i] = static_cast<std::uint8_t>(std::clamp(x, 0.0F, 255.0F) + 0.5F);
-  }
-  return {c[0], c[1], c[2]};
-}
-
-/// Nothing outside the sensor's range.
-float in_range(float depth, const CameraIntrinsics& camera) {
-  return depth >= camera.min_range_m && depth <= camera.max_range_m ? depth : 0.0F;
 }
 
 std::vector<SurfaceSoup> make_models(const Scene& scene) {
@@ -81,10 +31,41 @@ std::vector<SurfaceSoup> make_models(const Scene& scene) {
   return models;
 }
 
-std::vector<RayCaster::Placement> placements_of(const Scene& scene) {
-  std::vector<RayCaster::Placement> placements;
-  for (const SceneInstance& i : scene.instances) placements.push_back({i.model, i.T_world_model});
-  return placements;
+std::vector<TriangleClusters> make_clusters(const std::vector<SurfaceSoup>& models) {
+  std::vector<TriangleClusters> clusters;
+  for (const SurfaceSoup& model : models) clusters.push_back(make_triangle_clusters(model));
+  return clusters;
+}
+
+Light make_light(const RenderOptions& options) {
+  const Eigen::Vector3f d = options.light_direction.normalized().cast<float>();
+  return {d.x(), d.y(), d.z(), static_cast<float>(options.ambient)};
+}
+
+/// What all rows of a view share.
+struct View {
+  const CameraRays& rays;
+  const Pose& T_world_camera;
+  std::vector<PaintedBody> bodies;
+  std::uint64_t noise_key = 0;
+};
+
+/// A ray through each pixel of a row, depth 1.
+void cast_rays(const View& view, int v, const ShadingKernels& kernels, const ShadedRow& row) {
+  const CameraIntrinsics& camera = view.rays.intrinsics();
+  if (view.rays.lens().none()) {
+    const Eigen::Vector3f first = (view.T_world_camera.linear() * camera.ray(0, v)).cast<float>();
+    const Eigen::Vector3f step =
+        (view.T_world_camera.linear().col(0) / camera.fx).cast<float>();
+    kernels.rays(first.data(), step.data(), row);
+    return;
+  }
+  for (int u = 0; u < camera.width; ++u) {
+    const Eigen::Vector3f d = (view.T_world_camera.linear() * view.rays.ray(u, v)).cast<float>();
+    row.ray_x[u] = d.x();
+    row.ray_y[u] = d.y();
+    row.ray_z[u] = d.z();
+  }
 }
 
 }  // namespace
@@ -92,90 +73,127 @@ std::vector<RayCaster::Placement> placements_of(const Scene& scene) {
 struct Renderer::Impl {
   Impl(const Scene& scene, const RenderOptions& o)
       : options(o),
+        light(make_light(o)),
         world(make_surface_soup(scene.parts)),
         models(make_models(scene)),
-        caster(world, models, placements_of(scene)),
-        light{o.light_direction.normalized().cast<float>(), static_cast<float>(o.ambient)} {
-    for (const SceneInstance& instance : scene.instances) {
-      copies.push_back({&models[instance.model],
-                        instance.T_world_model.linear().transpose().cast<float>(),
-                        instance.brightness, static_cast<std::int16_t>(instance.first_fruit)});
+        world_clusters(make_triangle_clusters(world)),
+        model_clusters(make_clusters(models)),
+        instances(scene.instances),
+        rasterizer(bodies(), o.simd) {}
+
+  [[nodiscard]] std::vector<RasterBody> bodies() const {
+    std::vector<RasterBody> bodies{{&world, &world_clusters, Pose::Identity()}};
+    for (const SceneInstance& i : instances) {
+      bodies.push_back({&models[i.model], &model_clusters[i.model], i.T_world_model});
     }
+    return bodies;
   }
 
-  void cast_shadows(Block* block) const;
-  void render_block(const View& view, int u0, int v0, RenderedView* out) const;
+  /// Needed for lenses and shadows only: made when first asked for.
+  [[nodiscard]] const RayCaster& caster() const {
+    std::call_once(caster_once, [&] {
+      std::vector<RayCaster::Placement> places;
+      for (const SceneInstance& i : instances) places.push_back({i.model, i.T_world_model});
+      ray_caster = std::make_unique<RayCaster>(world, models, places);
+    });
+    return *ray_caster;
+  }
+
+  [[nodiscard]] View view_of(const CameraRays& rays, const Pose& T_world_camera) const;
+  void trace(const View& view, const ShadedRow& row, std::span<VisibleSurface> seen) const;
+  void cast_shadows(const View& view, const ShadedRow& row) const;
+  void render_row(const View& view, const VisibleImage* image, int v, PaintedRow* painted,
+                  RenderedView* out) const;
 
   RenderOptions options;
-  /// A model in its place: shading is done in its frame.
-  struct Copy {
-    const SurfaceSoup* soup;
-    Eigen::Matrix3f R_model_world;
-    float brightness;
-    std::int16_t first_fruit;
-  };
-
-  void shade_pixel(const Block& block, std::size_t i, std::uint64_t bits, const View& view,
-                   RenderedView* out) const;
-
+  Light light;
   SurfaceSoup world;
   std::vector<SurfaceSoup> models;
-  RayCaster caster;
-  std::vector<Copy> copies;
-  Light light;
+  TriangleClusters world_clusters;
+  std::vector<TriangleClusters> model_clusters;
+  std::vector<SceneInstance> instances;
+  Rasterizer rasterizer;
+  mutable std::once_flag caster_once;
+  mutable std::unique_ptr<const RayCaster> ray_caster;
 };
 
-void Renderer::Impl::cast_shadows(Block* block) const {
-  std::array<RayCaster::Ray, RayCaster::kPacket> to_light;
-  for (std::size_t i = 0; i < block->count; ++i) {
-    const auto& ray = block->rays[i];
-    to_light[i] = {ray.origin + block->hits[i].distance * ray.direction, light.direction};
+View Renderer::Impl::view_of(const CameraRays& rays, const Pose& T_world_camera) const {
+  View view{rays, T_world_camera, {}, key_of(options.noise_seed, T_world_camera)};
+  view.bodies.push_back({&world, BodyRays(Pose::Identity(), T_world_camera),
+                         Eigen::Matrix3f::Identity(), 1.0F, 0});
+  for (const SceneInstance& i : instances) {
+    view.bodies.push_back({&models[i.model], BodyRays(i.T_world_model, T_world_camera),
+                           i.T_world_model.linear().cast<float>(), i.brightness,
+                           static_cast<std::int16_t>(i.first_fruit)});
   }
-  constexpr float kOffSurface = 1e-3F;
-  caster.occluded(std::span(to_light).first(block->count), kOffSurface,
-                  std::span(block->shadowed).first(block->count));
+  return view;
 }
 
-void Renderer::Impl::render_block(const View& view, int u0, int v0, RenderedView* out) const {
-  Block block = make_block(view, u0, v0);
-  caster.closest(std::span(block.rays).first(block.count),
-                 std::span(block.hits).first(block.count));
-  if (options.shadows) cast_shadows(&block);
-  const auto noise = static_cast<float>(options.color_noise);
-  for (std::size_t i = 0; i < block.count; ++i) {
-    const auto [u, v] = block.pixels[i];
-    const RayCaster::Hit& hit = block.hits[i];
-    const std::uint64_t bits = pixel_hash(view.noise_key + static_cast<std::uint64_t>(v) * 65536U +
-                                          static_cast<std::uint64_t>(u));
-    if (hit.triangle == RayCaster::Hit::kNone) {
-      out->color.at(u, v) = to_rgb(sky_color(block.rays[i].direction), noise, bits);
-      continue;
+/// What the rays of a row meet.
+void Renderer::Impl::trace(const View& view, const ShadedRow& row,
+                           std::span<VisibleSurface> seen) const {
+  const Eigen::Vector3f eye = view.T_world_camera.translation().cast<float>();
+  std::array<RayCaster::Ray, RayCaster::kPacket> rays;
+  std::array<RayCaster::Hit, RayCaster::kPacket> hits;
+  for (std::size_t first = 0; first < row.count; first += RayCaster::kPacket) {
+    const std::size_t count = std::min(row.count - first, RayCaster::kPacket);
+    for (std::size_t i = 0; i < count; ++i) {
+      rays[i] = {eye, {row.ray_x[first + i], row.ray_y[first + i], row.ray_z[first + i]}};
     }
-    shade_pixel(block, i, bits, view, out);
+    caster().closest(std::span(rays).first(count), std::span(hits).first(count));
+    for (std::size_t i = 0; i < count; ++i) {
+      const RayCaster::Hit& hit = hits[i];
+      seen[first + i] = {};
+      if (hit.triangle == RayCaster::Hit::kNone) continue;
+      seen[first + i] = {hit.instance == RayCaster::Hit::kNone ? 0 : hit.instance + 1,
+                         hit.triangle};
+    }
   }
 }
 
-void Renderer::Impl::shade_pixel(const Block& block, std::size_t i, std::uint64_t bits,
-                                 const View& view, RenderedView* out) const {
-  const auto [u, v] = block.pixels[i];
-  const RayCaster::Hit& hit = block.hits[i];
-  const Copy* copy = hit.instance == RayCaster::Hit::kNone ? nullptr : &copies[hit.instance];
-  const SurfaceSoup& soup = copy == nullptr ? world : *copy->soup;
-  Eigen::Vector3f color;
-  if (copy == nullptr) {
-    color = shade(soup, hit, block.rays[i], light, block.shadowed[i]);
-  } else {
-    const RayCaster::Ray local{block.rays[i].origin, copy->R_model_world * block.rays[i].direction};
-    const Light turned{copy->R_model_world * light.direction, light.ambient};
-    color = copy->brightness * shade(soup, hit, local, turned, block.shadowed[i]);
+void Renderer::Impl::cast_shadows(const View& view, const ShadedRow& row) const {
+  constexpr float kOffSurface = 1e-3F;
+  const Eigen::Vector3f eye = view.T_world_camera.translation().cast<float>();
+  std::array<RayCaster::Ray, RayCaster::kPacket> to_light;
+  std::array<bool, RayCaster::kPacket> blocked{};
+  for (std::size_t first = 0; first < row.count; first += RayCaster::kPacket) {
+    const std::size_t count = std::min(row.count - first, RayCaster::kPacket);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t u = first + i;
+      const Eigen::Vector3f ray(row.ray_x[u], row.ray_y[u], row.ray_z[u]);
+      to_light[i] = {eye + row.depth[u] * ray, {light.x, light.y, light.z}};
+    }
+    caster().occluded(std::span(to_light).first(count), kOffSurface,
+                      std::span(blocked).first(count));
+    for (std::size_t i = 0; i < count; ++i) row.lit[first + i] = blocked[i] ? 0.0F : 1.0F;
   }
-  const SurfaceSoup::Part& part = soup.parts[soup.triangles[hit.triangle].part];
-  out->color.at(u, v) = to_rgb(color, static_cast<float>(options.color_noise), bits);
-  out->depth.at(u, v) = in_range(hit.distance, view.camera);
-  out->labels.kind.at(u, v) = static_cast<std::uint8_t>(part.kind);
-  const bool numbered = copy != nullptr && part.fruit >= 0;
-  out->labels.fruit.at(u, v) =
-      static_cast<std::int16_t>(part.fruit + (numbered ? copy->first_fruit : 0));
+}
+
+void Renderer::Impl::render_row(const View& view, const VisibleImage* image, int v,
+                                PaintedRow* painted, RenderedView* out) const {
+  const ShadingKernels& kernels = shading_kernels(options.simd);
+  const CameraIntrinsics& camera = view.rays.intrinsics();
+  const ShadedRow& row = painted->row();
+  cast_rays(view, v, kernels, row);
+  std::vector<VisibleSurface> seen(row.count);
+  if (image != nullptr) {
+    image->row(v, seen);
+  } else {
+    trace(view, row, seen);
+  }
+  painted->paint(seen, view.bodies, view.rays, v, &out->labels.fruit.at(0, v),
+                 &out->labels.kind.at(0, v));
+  kernels.orient(row);
+  kernels.store_depth(row, static_cast<float>(camera.min_range_m),
+                      static_cast<float>(camera.max_range_m), &out->depth.at(0, v));
+  if (options.shadows) cast_shadows(view, row);
+  const Eigen::Vector3f eye = view.T_world_camera.translation().cast<float>();
+  for (const auto& [begin, end] : painted->structure()) kernels.blotch(eye.data(), begin, end, row);
+  kernels.light(light, row);
+  for (const auto& [begin, end] : painted->sky()) kernels.sky(begin, end, row);
+  kernels.store_color(row, static_cast<float>(options.color_noise),
+                      view.noise_key + static_cast<std::uint64_t>(v) * 65536U,
+                      &out->color.at(0, v));
 }
 
 Renderer::Renderer(const Scene& scene, const RenderOptions& options)
@@ -185,26 +203,25 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 RenderedView Renderer::render(const CameraRays& rays, const Pose& T_world_camera) const {
-  const CameraIntrinsics& intrinsics = rays.intrinsics();
-  const int width = intrinsics.width;
-  const int height = intrinsics.height;
-  CANOPEER_CHECK(width > 0 && height > 0, "an image has pixels");
-  RenderedView out{DepthImage(width, height, 0.0F),
-                   ColorImage(width, height),
-                   {Image<std::int16_t>(width, height, std::int16_t{-1}),
-                    Image<std::uint8_t>(width, height, Labels::kNothing)}};
-  const View view{rays, intrinsics, T_world_camera.translation().cast<float>(),
-                  T_world_camera.linear(), key_of(impl_->options.noise_seed, T_world_camera)};
-  // Every pixel is written by one task and depends on nothing but itself.
-  const int block_rows = (height + kBlock - 1) / kBlock;
-  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<int>(0, block_rows, 2),
-                            [&](const oneapi::tbb::blocked_range<int>& rows) {
-                              for (int row = rows.begin(); row < rows.end(); ++row) {
-                                for (int u = 0; u < width; u += kBlock) {
-                                  impl_->render_block(view, u, row * kBlock, &out);
-                                }
-                              }
-                            });
+  const CameraIntrinsics& camera = rays.intrinsics();
+  CANOPEER_CHECK(camera.width > 0 && camera.height > 0, "an image has pixels");
+  RenderedView out{DepthImage(camera.width, camera.height, 0.0F),
+                   ColorImage(camera.width, camera.height),
+                   {Image<std::int16_t>(camera.width, camera.height, std::int16_t{-1}),
+                    Image<std::uint8_t>(camera.width, camera.height, Labels::kNothing)}};
+  const View view = impl_->view_of(rays, T_world_camera);
+  // Behind a lens straight edges are bent: such views are traced ray by ray.
+  std::optional<VisibleImage> image;
+  if (rays.lens().none()) image = impl_->rasterizer.draw(camera, T_world_camera);
+  // Every row is written by one task and depends on nothing but itself.
+  oneapi::tbb::parallel_for(
+      oneapi::tbb::blocked_range<int>(0, camera.height, 16),
+      [&](const oneapi::tbb::blocked_range<int>& rows) {
+        PaintedRow painted(static_cast<std::size_t>(camera.width));
+        for (int v = rows.begin(); v < rows.end(); ++v) {
+          impl_->render_row(view, image ? &*image : nullptr, v, &painted, &out);
+        }
+      });
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "canopeer/base/simd_level.h"
 #include "canopeer/scene/scene.h"
 #include "canopeer/sensing/camera_rays.h"
 #include "canopeer/sensing/image.h"
@@ -30,9 +31,11 @@ struct RenderOptions {
   bool shadows = false;          ///< one shadow ray a pixel
   double color_noise = 2.0;      ///< half width of triangular noise per channel, grey levels
   std::uint64_t noise_seed = 1;  ///< noise depends on this, the pose and the pixel only
+  SimdLevel simd = best_simd_level();  ///< changes the speed, never a bit of the image
 };
 
-/// Renders what an RGB-D camera sees of a scene (ray casting with Embree). The scene is copied.
+/// Renders what an RGB-D camera sees of a scene. A pinhole's view is rasterised; rays are cast
+/// (with Embree) behind a lens and for shadows. The scene is copied.
 class Renderer {
  public:
   explicit Renderer(const Scene& scene, const RenderOptions& options = {});

@@ -1,4 +1,4 @@
-#include "canopeer/map/simd_level.h"
+#include "canopeer/base/simd_level.h"
 
 namespace canopeer {
 

@@ -2,7 +2,7 @@
 
 namespace canopeer {
 
-/// Instruction sets the map's kernels are compiled for, one body each. A level changes the speed,
+/// Instruction sets that kernels are compiled for, one body each. A level changes the speed,
 /// never a bit of the result. avx512 is F, BW, DQ and VL.
 enum class SimdLevel { scalar, avx2, avx512 };
 
