@@ -9,6 +9,7 @@
 
 #include "canopeer/scene/plant.h"
 #include "canopeer/scene/worlds.h"
+#include "reference_view.h"
 
 namespace canopeer {
 namespace {
@@ -126,6 +127,70 @@ TEST(Renderer, IsTheSameWithOneThreadAndWithTwo) {
   EXPECT_TRUE(one.labels.fruit.pixels() == two.labels.fruit.pixels());
   const Renderer again(make_world(scenario_1_world(), 1));
   EXPECT_TRUE(again.render(camera, pose).depth.pixels() == one.depth.pixels());
+}
+
+TEST(Renderer, ShowsDepthColourAndLabelsOfWhatRaysMeet) {
+  const Scene scene = make_world(scenario_1_world(), 2);
+  auto camera = CameraIntrinsics::from_fov(320, 240, kFov);
+  camera.max_range_m = 100.0;
+  camera.min_range_m = 0.0;
+  const Pose pose = look_at(Vec3(-0.12, 0.2, 0.78), Vec3(0.75, 0.2, 0.68));
+  const SurfaceSoup soup = make_surface_soup(scene.parts);
+  LensDistortion lens;
+  lens.k1 = -0.1;
+  for (const bool shadows : {false, true}) {
+    for (const CameraRays& rays : {CameraRays(camera), CameraRays(camera, lens)}) {
+      RenderOptions options;
+      options.shadows = shadows;
+      options.color_noise = 0.0;
+      const RenderedView view = Renderer(scene, options).render(rays, pose);
+      const auto reference = testing_support::reference_view(scene, rays, pose, options);
+      int different = 0;
+      for (std::size_t i = 0; i < reference.hits.size(); ++i) {
+        const RayCaster::Hit& hit = reference.hits[i];
+        const bool nothing = hit.triangle == RayCaster::Hit::kNone;
+        const Rgb& c = view.color.pixels()[i];
+        const Eigen::Vector3f& r = reference.colors[i];
+        const auto off = [](std::uint8_t a, float b) {
+          return std::abs(static_cast<float>(a) - std::clamp(b, 0.0F, 255.0F));
+        };
+        bool same = off(c.r, r.x()) < 1.5F && off(c.g, r.y()) < 1.5F && off(c.b, r.z()) < 1.5F;
+        if (nothing) {
+          same = same && view.labels.kind.pixels()[i] == Labels::kNothing;
+        } else {
+          const SurfaceSoup::Part& part = soup.parts[soup.triangles[hit.triangle].part];
+          same = same && std::abs(view.depth.pixels()[i] - hit.distance) < 1e-5F &&
+                 view.labels.kind.pixels()[i] == static_cast<std::uint8_t>(part.kind) &&
+                 view.labels.fruit.pixels()[i] == part.fruit;
+        }
+        different += !same;
+      }
+      // Shadows end, and rays pass edges, within rounding here and there.
+      EXPECT_LT(different, shadows ? 60 : 6);
+    }
+  }
+}
+
+TEST(Renderer, GivesTheSameBytesAtEveryLevelAndWithAnyNumberOfThreads) {
+  const Scene scene = make_world(*named_world("scenario_1"), 1);
+  CameraIntrinsics camera{203, 117, 130.0, 128.0, 100.25, 60.5};
+  const Pose pose = look_at(Vec3(0, 0.3, 0.9), Vec3(-0.75, 0.3, 0.5), 0.1);
+  RenderOptions options;
+  options.simd = SimdLevel::scalar;
+  const RenderedView expected = Renderer(scene, options).render(camera, pose);
+  for (const SimdLevel level : kSimdLevels) {
+    if (level > best_simd_level()) continue;
+    options.simd = level;
+    const Renderer renderer(scene, options);
+    for (const int threads : {1, 2}) {
+      RenderedView view;
+      oneapi::tbb::task_arena(threads).execute([&] { view = renderer.render(camera, pose); });
+      EXPECT_TRUE(view.depth.pixels() == expected.depth.pixels()) << simd_level_name(level);
+      EXPECT_TRUE(view.color.pixels() == expected.color.pixels()) << simd_level_name(level);
+      EXPECT_TRUE(view.labels.fruit.pixels() == expected.labels.fruit.pixels());
+      EXPECT_TRUE(view.labels.kind.pixels() == expected.labels.kind.pixels());
+    }
+  }
 }
 
 TEST(Renderer, LabelsAndDepthMeetOnTheFruits) {

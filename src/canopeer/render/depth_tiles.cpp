@@ -33,8 +33,8 @@ DepthTiles::DepthTiles(int width, int height)
 }
 
 void DepthTiles::refresh(std::size_t tile) {
-  const float* row = nearness_.data() + tile / tiles_across_ * kTile * stride_ +
-                     tile % tiles_across_ * kTile;
+  const float* row =
+      nearness_.data() + tile / tiles_across_ * kTile * stride_ + tile % tiles_across_ * kTile;
   std::array<float, kTile> least;
   std::copy_n(row, kTile, least.begin());
   for (int v = 1; v < kTile; ++v) {

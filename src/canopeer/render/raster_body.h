@@ -134,9 +134,14 @@ std::int32_t to_pixel(float x, float low, float high) {
 void planes_and_bounds(const RasterCluster& in, const Projected& p, const RasterWindow& window,
                        Setups* s) {
   alignas(64) float u[3][kTriangles], v[3][kTriangles], w[3][kTriangles], z[3][kTriangles];
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t t = 0; t < in.triangles; ++t) {
-      const std::size_t i = in.corners[3 * t + k];
+  for (std::size_t t = 0; t < in.triangles; ++t) {
+    // The farthest corner first: its place in the picture is the surest, and so is the plane there.
+    const std::uint8_t* corners = in.corners + 3 * t;
+    const float w0 = p.w[corners[0]], w1 = p.w[corners[1]], w2 = p.w[corners[2]];
+    const std::size_t first = w1 < w0 ? (w2 < w1 ? 2 : 1) : (w2 < w0 ? 2 : 0);
+    constexpr std::uint8_t kNext[] = {0, 1, 2, 0, 1};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t i = corners[kNext[first + k]];
       u[k][t] = p.u[i], v[k][t] = p.v[i], w[k][t] = p.w[i], z[k][t] = p.z[i];
     }
   }

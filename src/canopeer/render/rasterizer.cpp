@@ -45,8 +45,7 @@ struct CutCluster {
     const std::uint32_t t = self.triangles[triangle];
     const Vec3 w = SurfacePlane(self.soup, t, self.rays.eye)
                        .weights_inside(self.rays.direction(ray.x(), ray.y()));
-    return canopeer::solid(self.soup, t,
-                           {static_cast<float>(w.y()), static_cast<float>(w.z())});
+    return canopeer::solid(self.soup, t, {static_cast<float>(w.y()), static_cast<float>(w.z())});
   }
 };
 
@@ -62,8 +61,7 @@ RasterCluster cluster_of(const View& view, std::size_t place) {
   raster.vertices = cluster.vertices;
   raster.corners = all.corners[cluster.first_triangle].data();
   raster.triangles = cluster.triangles;
-  raster.first_surface =
-      static_cast<std::uint32_t>(place * TriangleClusters::kMaxTriangles);
+  raster.first_surface = static_cast<std::uint32_t>(place * TriangleClusters::kMaxTriangles);
   for (int i = 0; i < 9; ++i) raster.turn[i] = body.turn(i / 3, i % 3);
   for (int i = 0; i < 3; ++i) {
     raster.eye[i] = body.eye[i];
@@ -75,10 +73,10 @@ RasterCluster cluster_of(const View& view, std::size_t place) {
 bool draw_cut(const View& view, const QueuedCluster& queued, RasterCluster cluster,
               const RasterWindow& window) {
   const RasterBody& body = view.bodies[queued.body];
-  const CutCluster cut{*body.soup,
-                       body.clusters->triangles.data() +
-                           body.clusters->clusters[queued.cluster].first_triangle,
-                       BodyRays(body.T_world_body, view.T_world_camera), view.camera};
+  const CutCluster cut{
+      *body.soup,
+      body.clusters->triangles.data() + body.clusters->clusters[queued.cluster].first_triangle,
+      BodyRays(body.T_world_body, view.T_world_camera), view.camera};
   cluster.solid = CutCluster::solid;
   cluster.context = &cut;
   return view.kernels.draw(cluster, window);
@@ -142,22 +140,21 @@ VisibleImage Rasterizer::draw(const CameraIntrinsics& camera, const Pose& T_worl
   return image;
 }
 
-void VisibleImage::row(int v, std::span<VisibleSurface> row) const {
+void VisibleImage::row(int v, std::vector<VisibleRun>* runs) const {
+  runs->clear();
   const std::uint32_t* surface = tiles_.surface_row(v);
-  std::uint32_t last = kNoSurface;
-  VisibleSurface seen;
-  for (std::size_t u = 0; u < row.size(); ++u) {
-    if (surface[u] != last) {
-      last = surface[u];
-      seen = {};
-      if (last != kNoSurface) {
-        const QueuedCluster& queued = queue_[last / kPerCluster];
-        const TriangleClusters& all = *(*bodies_)[queued.body].clusters;
-        seen = {queued.body, all.triangles[all.clusters[queued.cluster].first_triangle +
-                                           last % kPerCluster]};
-      }
+  const auto width = static_cast<std::uint32_t>(width_);
+  for (std::uint32_t begin = 0, end = 0; begin < width; begin = end) {
+    const std::uint32_t here = surface[begin];
+    while (end < width && surface[end] == here) ++end;
+    VisibleRun run{begin, end, {}};
+    if (here != kNoSurface) {
+      const QueuedCluster& queued = queue_[here / kPerCluster];
+      const TriangleClusters& all = *(*bodies_)[queued.body].clusters;
+      const std::uint32_t first = all.clusters[queued.cluster].first_triangle;
+      run.surface = {queued.body, all.triangles[first + here % kPerCluster]};
     }
-    row[u] = seen;
+    runs->push_back(run);
   }
 }
 

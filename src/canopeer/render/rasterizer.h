@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "canopeer/base/simd_level.h"
@@ -14,16 +13,17 @@ namespace canopeer {
 /// Which triangle each pixel of a view shows.
 class VisibleImage {
  public:
-  VisibleImage(int width, int height) : tiles_(width, height) {}
+  VisibleImage(int width, int height) : width_(width), tiles_(width, height) {}
 
-  /// row.size() pixels of row v, from the left.
-  void row(int v, std::span<VisibleSurface> row) const;
+  /// What row v shows, from the left; `runs` is overwritten.
+  void row(int v, std::vector<VisibleRun>* runs) const;
 
  private:
   friend class Rasterizer;
   // A surface's number: place in the queue · 64 + triangle of the group.
   static constexpr std::uint32_t kPerCluster = TriangleClusters::kMaxTriangles;
 
+  int width_;
   DepthTiles tiles_;
   std::vector<QueuedCluster> queue_;
   const std::vector<RasterBody>* bodies_ = nullptr;

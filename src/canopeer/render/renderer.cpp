@@ -55,8 +55,7 @@ void cast_rays(const View& view, int v, const ShadingKernels& kernels, const Sha
   const CameraIntrinsics& camera = view.rays.intrinsics();
   if (view.rays.lens().none()) {
     const Eigen::Vector3f first = (view.T_world_camera.linear() * camera.ray(0, v)).cast<float>();
-    const Eigen::Vector3f step =
-        (view.T_world_camera.linear().col(0) / camera.fx).cast<float>();
+    const Eigen::Vector3f step = (view.T_world_camera.linear().col(0) / camera.fx).cast<float>();
     kernels.rays(first.data(), step.data(), row);
     return;
   }
@@ -100,9 +99,9 @@ struct Renderer::Impl {
   }
 
   [[nodiscard]] View view_of(const CameraRays& rays, const Pose& T_world_camera) const;
-  void trace(const View& view, const ShadedRow& row, std::span<VisibleSurface> seen) const;
+  void trace(const View& view, const ShadedRow& row, std::vector<VisibleRun>* runs) const;
   void cast_shadows(const View& view, const ShadedRow& row) const;
-  void render_row(const View& view, const VisibleImage* image, int v, PaintedRow* painted,
+  void render_row(const View& view, const VisibleImage* image, int v, RowPainter* painter,
                   RenderedView* out) const;
 
   RenderOptions options;
@@ -119,8 +118,8 @@ struct Renderer::Impl {
 
 View Renderer::Impl::view_of(const CameraRays& rays, const Pose& T_world_camera) const {
   View view{rays, T_world_camera, {}, key_of(options.noise_seed, T_world_camera)};
-  view.bodies.push_back({&world, BodyRays(Pose::Identity(), T_world_camera),
-                         Eigen::Matrix3f::Identity(), 1.0F, 0});
+  view.bodies.push_back(
+      {&world, BodyRays(Pose::Identity(), T_world_camera), Eigen::Matrix3f::Identity(), 1.0F, 0});
   for (const SceneInstance& i : instances) {
     view.bodies.push_back({&models[i.model], BodyRays(i.T_world_model, T_world_camera),
                            i.T_world_model.linear().cast<float>(), i.brightness,
@@ -131,7 +130,8 @@ View Renderer::Impl::view_of(const CameraRays& rays, const Pose& T_world_camera)
 
 /// What the rays of a row meet.
 void Renderer::Impl::trace(const View& view, const ShadedRow& row,
-                           std::span<VisibleSurface> seen) const {
+                           std::vector<VisibleRun>* runs) const {
+  runs->clear();
   const Eigen::Vector3f eye = view.T_world_camera.translation().cast<float>();
   std::array<RayCaster::Ray, RayCaster::kPacket> rays;
   std::array<RayCaster::Hit, RayCaster::kPacket> hits;
@@ -143,10 +143,11 @@ void Renderer::Impl::trace(const View& view, const ShadedRow& row,
     caster().closest(std::span(rays).first(count), std::span(hits).first(count));
     for (std::size_t i = 0; i < count; ++i) {
       const RayCaster::Hit& hit = hits[i];
-      seen[first + i] = {};
+      const auto u = static_cast<std::uint32_t>(first + i);
+      runs->push_back({u, u + 1, {}});
       if (hit.triangle == RayCaster::Hit::kNone) continue;
-      seen[first + i] = {hit.instance == RayCaster::Hit::kNone ? 0 : hit.instance + 1,
-                         hit.triangle};
+      runs->back().surface = {hit.instance == RayCaster::Hit::kNone ? 0 : hit.instance + 1,
+                              hit.triangle};
     }
   }
 }
@@ -170,27 +171,26 @@ void Renderer::Impl::cast_shadows(const View& view, const ShadedRow& row) const 
 }
 
 void Renderer::Impl::render_row(const View& view, const VisibleImage* image, int v,
-                                PaintedRow* painted, RenderedView* out) const {
+                                RowPainter* painter, RenderedView* out) const {
   const ShadingKernels& kernels = shading_kernels(options.simd);
   const CameraIntrinsics& camera = view.rays.intrinsics();
-  const ShadedRow& row = painted->row();
+  const ShadedRow& row = painter->row();
   cast_rays(view, v, kernels, row);
-  std::vector<VisibleSurface> seen(row.count);
+  std::vector<VisibleRun> runs;
   if (image != nullptr) {
-    image->row(v, seen);
+    image->row(v, &runs);
   } else {
-    trace(view, row, seen);
+    trace(view, row, &runs);
   }
-  painted->paint(seen, view.bodies, view.rays, v, &out->labels.fruit.at(0, v),
-                 &out->labels.kind.at(0, v));
+  painter->paint(runs, v, &out->labels.fruit.at(0, v), &out->labels.kind.at(0, v));
   kernels.orient(row);
   kernels.store_depth(row, static_cast<float>(camera.min_range_m),
                       static_cast<float>(camera.max_range_m), &out->depth.at(0, v));
   if (options.shadows) cast_shadows(view, row);
   const Eigen::Vector3f eye = view.T_world_camera.translation().cast<float>();
-  for (const auto& [begin, end] : painted->structure()) kernels.blotch(eye.data(), begin, end, row);
+  for (const auto& [begin, end] : painter->structure()) kernels.blotch(eye.data(), begin, end, row);
   kernels.light(light, row);
-  for (const auto& [begin, end] : painted->sky()) kernels.sky(begin, end, row);
+  for (const auto& [begin, end] : painter->sky()) kernels.sky(begin, end, row);
   kernels.store_color(row, static_cast<float>(options.color_noise),
                       view.noise_key + static_cast<std::uint64_t>(v) * 65536U,
                       &out->color.at(0, v));
@@ -214,14 +214,14 @@ RenderedView Renderer::render(const CameraRays& rays, const Pose& T_world_camera
   std::optional<VisibleImage> image;
   if (rays.lens().none()) image = impl_->rasterizer.draw(camera, T_world_camera);
   // Every row is written by one task and depends on nothing but itself.
-  oneapi::tbb::parallel_for(
-      oneapi::tbb::blocked_range<int>(0, camera.height, 16),
-      [&](const oneapi::tbb::blocked_range<int>& rows) {
-        PaintedRow painted(static_cast<std::size_t>(camera.width));
-        for (int v = rows.begin(); v < rows.end(); ++v) {
-          impl_->render_row(view, image ? &*image : nullptr, v, &painted, &out);
-        }
-      });
+  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<int>(0, camera.height, 16),
+                            [&](const oneapi::tbb::blocked_range<int>& rows) {
+                              RowPainter painter(view.bodies, rays);
+                              for (int v = rows.begin(); v < rows.end(); ++v) {
+                                impl_->render_row(view, image ? &*image : nullptr, v, &painter,
+                                                  &out);
+                              }
+                            });
   return out;
 }
 

@@ -27,10 +27,10 @@ struct RenderedView {
 struct RenderOptions {
   /// Towards the light, world; any length but 0.
   Vec3 light_direction{0.35, -0.25, 0.9};
-  double ambient = 0.6;          ///< share of the light that comes from everywhere, 0 … 1
-  bool shadows = false;          ///< one shadow ray a pixel
-  double color_noise = 2.0;      ///< half width of triangular noise per channel, grey levels
-  std::uint64_t noise_seed = 1;  ///< noise depends on this, the pose and the pixel only
+  double ambient = 0.6;                ///< share of the light that comes from everywhere, 0 … 1
+  bool shadows = false;                ///< one shadow ray a pixel
+  double color_noise = 2.0;            ///< half width of triangular noise per channel, grey levels
+  std::uint64_t noise_seed = 1;        ///< noise depends on this, the pose and the pixel only
   SimdLevel simd = best_simd_level();  ///< changes the speed, never a bit of the image
 };
 

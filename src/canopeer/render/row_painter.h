@@ -19,29 +19,41 @@ struct PaintedBody {
   std::int16_t first_fruit = 0;  ///< number of its fruit 0
 };
 
-/// Memory of a ShadedRow, and which of its pixels are sky or structure.
-class PaintedRow {
+/// Fills in what shading needs of rows of pixels, from which triangle each of them shows. One for
+/// each thread.
+class RowPainter {
  public:
   struct Range {
     std::size_t begin = 0, end = 0;
   };
 
-  explicit PaintedRow(std::size_t width);
+  /// All of them outlive the painter.
+  RowPainter(const std::vector<PaintedBody>& bodies, const CameraRays& rays);
+  ~RowPainter();
+  RowPainter(const RowPainter&) = delete;
+  RowPainter& operator=(const RowPainter&) = delete;
+
   [[nodiscard]] const ShadedRow& row() const { return row_; }
+  /// Pixels of the last row painted that show the sky, and those that show structure.
   [[nodiscard]] const std::vector<Range>& sky() const { return sky_; }
   [[nodiscard]] const std::vector<Range>& structure() const { return structure_; }
 
-  /// Fills in all but the rays of row v from which triangle each pixel shows; writes its labels.
-  void paint(std::span<const VisibleSurface> seen, const std::vector<PaintedBody>& bodies,
-             const CameraRays& rays, int v, std::int16_t* fruit, std::uint8_t* kind);
+  /// All of row v but its rays; and its labels.
+  void paint(std::span<const VisibleRun> runs, int v, std::int16_t* fruit, std::uint8_t* kind);
 
  private:
-  struct Run;
+  struct Triangle;
+  struct Shades;
+  const Triangle& prepared(VisibleSurface surface);
   void paint_sky(Range pixels);
-  void paint_run(const Run& run);
-  void paint_pixel(const Run& run, std::size_t u);
-  void paint_base(const Run& run);
+  void paint_run(const Triangle& triangle, Range pixels, int v);
+  void paint_pixel(const Triangle& triangle, std::size_t u, const Vec3& sides);
+  void fill(const Shades& shades, Range pixels);
 
+  const std::vector<PaintedBody>& bodies_;
+  const CameraRays& rays_;
+  std::vector<Triangle> triangles_;   // those seen lately: most are seen again in the next row
+  std::vector<VisibleSurface> kept_;  // which
   std::vector<float> memory_;
   ShadedRow row_;
   std::vector<Range> sky_;

@@ -44,7 +44,8 @@ void orient(const ShadedRow& row) {
     const Floats z = load(row.normal_z + i);
     const Floats length = root((x * x + y * y) + z * z);
     const Floats unit = 1.0F / most(length, all(1e-30F));
-    const Floats away = (x * load(row.ray_x + i) + y * load(row.ray_y + i)) + z * load(row.ray_z + i);
+    const Floats away =
+        (x * load(row.ray_x + i) + y * load(row.ray_y + i)) + z * load(row.ray_z + i);
     const Floats turned = away > 0.0F ? -unit : unit;
     store(x * turned, row.normal_x + i);
     store(y * turned, row.normal_y + i);
@@ -79,8 +80,8 @@ void blotch(const float eye[3], std::size_t begin, std::size_t end, const Shaded
     const Floats x = eye[0] + load(row.depth + i) * load(row.ray_x + i);
     const Floats y = eye[1] + load(row.depth + i) * load(row.ray_y + i);
     const Floats even = (1.0F + 0.05F * blotches(x, y, 66.0F)) + 0.05F * blotches(x, y, 9.0F);
-    const Ints flat = (load(row.normal_z + i) > 0.5F) &
-                      (counting(i) < static_cast<std::int32_t>(end));
+    const Ints flat =
+        (load(row.normal_z + i) > 0.5F) & (counting(i) < static_cast<std::int32_t>(end));
     store(flat ? even : load(row.brightness + i), row.brightness + i);
   }
 }
@@ -188,7 +189,7 @@ void store_color(const ShadedRow& row, float noise, std::uint64_t key, Rgb* colo
 }  // namespace
 
 extern const ShadingKernels CANOPEER_SHADING_NAME;
-const ShadingKernels CANOPEER_SHADING_NAME = {rays, orient, blotch, light, sky, store_depth,
-                                              store_color};
+const ShadingKernels CANOPEER_SHADING_NAME = {rays, orient,      blotch,     light,
+                                              sky,  store_depth, store_color};
 
 }  // namespace canopeer

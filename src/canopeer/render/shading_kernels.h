@@ -18,15 +18,17 @@ struct Light {
 /// multiple of 16. World frame. Surfaces are lit from both sides.
 struct ShadedRow {
   std::size_t count = 0;
-  float *ray_x = nullptr, *ray_y = nullptr, *ray_z = nullptr;  ///< through the pixel's centre, depth 1
+  float *ray_x = nullptr, *ray_y = nullptr,
+        *ray_z = nullptr;  ///< through the pixel's centre, depth 1
   /// The surface: normal of any length and side, brightness · weight and depth · weight, and the
   /// weight. `orient` makes them a unit vector towards the viewer, brightness and depth.
   float *normal_x = nullptr, *normal_y = nullptr, *normal_z = nullptr;
   float *brightness = nullptr, *depth = nullptr, *weight = nullptr;
-  float *red = nullptr, *green = nullptr, *blue = nullptr;  ///< base colour, 0 … 255; `light` makes it the colour seen
+  float *red = nullptr, *green = nullptr,
+        *blue = nullptr;  ///< base colour, 0 … 255; `light` makes it the colour seen
   float *gloss_wide = nullptr, *gloss_narrow = nullptr;  ///< strength of highlights, grey levels
-  float* through = nullptr;                    ///< share of light from behind that comes through
-  float* lit = nullptr;                        ///< 1; 0 in shadow
+  float* through = nullptr;  ///< share of light from behind that comes through
+  float* lit = nullptr;      ///< 1; 0 in shadow
 };
 inline constexpr std::size_t kShadedRowArrays = 16;
 

@@ -18,4 +18,10 @@ struct VisibleSurface {
   }
 };
 
+/// Neighbouring pixels of a row, begin … end, that show the same.
+struct VisibleRun {
+  std::uint32_t begin = 0, end = 0;
+  VisibleSurface surface;
+};
+
 }  // namespace canopeer
