@@ -58,7 +58,8 @@ Glasshouse::Glasshouse(const std::string& robot_yaml, int views)
 
 std::vector<ViewPose> Glasshouse::draw_views(int candidates, std::uint64_t seed) const {
   const ViewSampler sampler(frame, robot, ik, {});
-  const TargetSampler sampled(targets, perception.map().resolution_m(), {});
+  const TargetSampler sampled =
+      sampler.targets_in_reach(targets, perception.map().resolution_m(), {});
   std::vector<ViewPose> views;
   WorkMeter work;
   for (int i = 0; i < candidates; ++i) {

@@ -44,7 +44,8 @@ class Segment {
     const ViewSampler sampler(world.frame, world.robot, world.ik, {});
     WorkMeter work;
     for (int taken = 0; taken < kFrames;) {
-      const TargetSampler drawn(targets_, world.mission.map.resolution_m, {});
+      const TargetSampler drawn =
+          sampler.targets_in_reach(targets_, world.mission.map.resolution_m, {});
       const auto view = sampler.sample(world.perception.map(), world.checker, drawn, rng, work);
       if (!view) continue;
       look_from(view->q);

@@ -241,7 +241,8 @@ BENCHMARK(edge);
 void view_poses(benchmark::State& state) {
   const Glasshouse& world = ur5e();
   const ViewSampler sampler(world.frame, world.robot, world.ik, {});
-  const TargetSampler targets(world.targets, world.perception.map().resolution_m(), {});
+  const TargetSampler targets =
+      sampler.targets_in_reach(world.targets, world.perception.map().resolution_m(), {});
   WorkMeter work;
   std::uint64_t i = 0;
   std::int64_t valid = 0;

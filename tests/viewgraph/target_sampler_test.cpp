@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <map>
 
 namespace canopeer {
@@ -57,6 +58,21 @@ TEST(TargetSampler, GivesVoxelCentresAndNothingWhenThereIsNone) {
   const TargetSampler one(targets(1, 0, 0), 0.01, {});
   EXPECT_TRUE(one.draw(TargetKind::roi, rng).p_world.isApprox(Vec3(0.005, 0.005, 0.005)));
   EXPECT_FALSE(TargetSampler(FrontierTargets{}, 0.01, {}).draw_kind(rng).has_value());
+}
+
+TEST(TargetSampler, WeighsTheTargetsOfAKind) {
+  // Voxel 0 is out of reach, voxel 2 weighs three times as much as voxel 1.
+  const TargetSampler sampler(targets(3, 0, 0), 1.0, {}, [](const Vec3& p) {
+    return p.x() < 1.0 ? 0.0 : p.x() < 2.0 ? 1.0 : 3.0;
+  });
+  Rng rng(4);
+  std::array<int, 3> drawn{};
+  for (int i = 0; i < 20000; ++i) {
+    ++drawn[static_cast<std::size_t>(sampler.draw(TargetKind::roi, rng).p_world.x())];
+  }
+  EXPECT_EQ(drawn[0], 0);
+  EXPECT_NEAR(drawn[2], 15000, 5 * 61);
+  EXPECT_TRUE(TargetSampler(targets(5, 5, 5), 0.01, {}, [](const Vec3&) { return 0.0; }).empty());
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ TEST(ViewSampler, EveryViewKeepsAllThatIsAskedOfOne) {
   const test::PlanningFixture world;
   const ViewSamplerOptions options;
   const ViewSampler sampler(world.frame, world.robot, world.ik, options);
-  const TargetSampler targets(world.home.change.targets, 0.01, {});
+  const TargetSampler targets = sampler.targets_in_reach(world.home.change.targets, 0.01, {});
   const ExactChecker judge(world.robot);
   int found = 0;
   WorkMeter work;

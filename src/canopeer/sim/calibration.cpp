@@ -76,14 +76,14 @@ class Bench {
     std::vector<RgbdFrame> frames = {capture(home_)};
     take_in(frames.front());
     const ViewSampler sampler(frame_, robot_, ik_, mission_.planners.vmp.builder.sampler);
-    TargetSampler targets = current_targets();
+    TargetSampler targets = current_targets(sampler);
     WorkMeter work;
     for (int tries = 0; tries < 2000 && static_cast<int>(frames.size()) < kFrames; ++tries) {
       const auto view = sampler.sample(map_, checker_, targets, rng, work);
       if (!view) continue;
       frames.push_back(capture(view->q));
       take_in(frames.back());
-      targets = current_targets();
+      targets = current_targets(sampler);
     }
     costs[Work::detect_frame] = best_per_unit([&] {
       for (const auto& frame : frames) static_cast<void>(detector_->detect(frame));
@@ -104,7 +104,7 @@ class Bench {
 
   void measure_sampling(CostTable& costs) {
     const ViewSampler sampler(frame_, robot_, ik_, mission_.planners.vmp.builder.sampler);
-    const TargetSampler targets = current_targets();
+    const TargetSampler targets = current_targets(sampler);
     WorkMeter work;
     Rng rng(2, "calibration views");
     std::vector<ViewPose> views;
@@ -233,9 +233,9 @@ class Bench {
     CANOPEER_CHECK(seen.has_value(), "a detector that was made detects");
     field_.update(map_, fuse(map_, frame, seen->fruit, mission_.fusion).changed);
   }
-  [[nodiscard]] TargetSampler current_targets() const {
-    return {extract_frontiers(map_, frame_.sampling_region_world), map_.resolution_m(),
-            mission_.planners.vmp.builder.shares};
+  [[nodiscard]] TargetSampler current_targets(const ViewSampler& sampler) const {
+    return sampler.targets_in_reach(extract_frontiers(map_, frame_.sampling_region_world),
+                                    map_.resolution_m(), mission_.planners.vmp.builder.shares);
   }
 
   const RobotModel& robot_;

@@ -43,9 +43,9 @@ GraphBuilder::GraphBuilder(ViewGraph& graph, const SegmentFrame& frame, const Ro
       seed_(seed),
       start_(kNoNode) {}
 
-void GraphBuilder::set_targets(const VoxelMap& map, FrontierTargets targets,
+void GraphBuilder::set_targets(const VoxelMap& map, const FrontierTargets& targets,
                                const std::vector<NodeId>& keep) {
-  targets_ = TargetSampler(std::move(targets), map.resolution_m(), options_.shares);
+  targets_ = sampler_.targets_in_reach(targets, map.resolution_m(), options_.shares);
   idle_batches_ = 0;
   const bool no_room = graph_->node_count() >= options_.max_nodes;
   for (std::size_t i = 0; i < graph_->id_count(); ++i) {

@@ -36,7 +36,8 @@ class GraphBuilder {
   /// New frontiers, re-extracted after a frame: a resting builder wakes. Views whose ROI target is
   /// no frontier any more stop facing a ROI. Where a kind is full, unvisited views whose target is
   /// no frontier any more make room, except those in `keep`.
-  void set_targets(const VoxelMap& map, FrontierTargets targets, const std::vector<NodeId>& keep);
+  void set_targets(const VoxelMap& map, const FrontierTargets& targets,
+                   const std::vector<NodeId>& keep);
 
   /// Puts the arm's present configuration in as a visited node and joins it to its neighbours.
   NodeId add_start(const Configuration& q, const CollisionChecker& checker,

@@ -1,5 +1,6 @@
 #include "canopeer/viewgraph/target_sampler.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -8,11 +9,25 @@
 
 namespace canopeer {
 
-TargetSampler::TargetSampler(FrontierTargets targets, double resolution_m,
-                             const TargetShares& shares)
-    : targets_(std::make_shared<const FrontierTargets>(std::move(targets))),
-      resolution_m_(resolution_m),
-      shares_(shares) {}
+TargetSampler::TargetSampler(const FrontierTargets& targets, double resolution_m,
+                             const TargetShares& shares, const Weight& weight)
+    : resolution_m_(resolution_m), shares_(shares) {
+  auto kinds = std::make_shared<Kinds>();
+  const auto weigh = [&](TargetKind kind, const std::vector<VoxelIndex>& voxels) {
+    Weighted& weighted = (*kinds)[static_cast<std::size_t>(kind)];
+    double sum = 0.0;
+    for (const VoxelIndex& voxel : voxels) {
+      const double w = weight ? weight(voxel_centre(voxel, resolution_m)) : 1.0;
+      if (w <= 0.0) continue;
+      weighted.voxels.push_back(voxel);
+      weighted.until.push_back(sum += w);
+    }
+  };
+  weigh(TargetKind::roi, targets.roi);
+  weigh(TargetKind::occupied, targets.occupied);
+  weigh(TargetKind::border, targets.border);
+  kinds_ = std::move(kinds);
+}
 
 void TargetSampler::close(TargetKind kind, bool closed) {
   closed_[static_cast<std::size_t>(kind)] = closed;
@@ -21,12 +36,6 @@ void TargetSampler::close(TargetKind kind, bool closed) {
 bool TargetSampler::empty() const {
   return !available(TargetKind::roi) && !available(TargetKind::occupied) &&
          !available(TargetKind::border);
-}
-
-const std::vector<VoxelIndex>& TargetSampler::of_kind(TargetKind kind) const {
-  CANOPEER_CHECK(kind != TargetKind::none, "a kind of frontier");
-  if (kind == TargetKind::roi) return targets_->roi;
-  return kind == TargetKind::occupied ? targets_->occupied : targets_->border;
 }
 
 std::optional<TargetKind> TargetSampler::draw_kind(Rng& rng) const {
@@ -39,8 +48,11 @@ std::optional<TargetKind> TargetSampler::draw_kind(Rng& rng) const {
 }
 
 Target TargetSampler::draw(TargetKind kind, Rng& rng) const {
-  const auto& voxels = of_kind(kind);
-  return {kind, voxel_centre(voxels[rng.index(voxels.size())], resolution_m_)};
+  CANOPEER_CHECK(available(kind), "an open kind with targets");
+  const auto& [voxels, until] = of_kind(kind);
+  const auto it = std::upper_bound(until.begin(), until.end(), rng.uniform() * until.back());
+  const auto i = std::min<std::ptrdiff_t>(it - until.begin(), std::ssize(until) - 1);
+  return {kind, voxel_centre(voxels[static_cast<std::size_t>(i)], resolution_m_)};
 }
 
 }  // namespace canopeer

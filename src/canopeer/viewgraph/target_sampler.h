@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -24,13 +25,18 @@ struct Target {
 };
 
 /// Draws target positions from the frontiers of the map ([Zaenker23], section III-B): first a kind
-/// by its share, then a voxel centre uniformly within the kind. A kind without voxels hands over to
-/// the next one, in the order ROI, occupied, border, ROI. Const calls are thread-safe; a copy
-/// shares the targets and is a cheap snapshot.
+/// by its share, then a voxel centre within the kind, uniformly or with a chance in proportion to
+/// its weight. A kind without voxels hands over to the next one, in the order ROI, occupied,
+/// border, ROI. Const calls are thread-safe; a copy shares the targets and is a cheap snapshot.
 class TargetSampler {
  public:
+  /// Of a target's position (world); 0 or less: never drawn.
+  using Weight = std::function<double(const Vec3&)>;
+
   TargetSampler() = default;
-  TargetSampler(FrontierTargets targets, double resolution_m, const TargetShares& shares);
+  /// Without `weight` all targets weigh the same.
+  TargetSampler(const FrontierTargets& targets, double resolution_m, const TargetShares& shares,
+                const Weight& weight = {});
 
   /// No targets of this kind are drawn while it is closed.
   void close(TargetKind kind, bool closed);
@@ -40,15 +46,21 @@ class TargetSampler {
   [[nodiscard]] Target draw(TargetKind kind, Rng& rng) const;
   /// No open kind has targets.
   [[nodiscard]] bool empty() const;
-  [[nodiscard]] const FrontierTargets& targets() const { return *targets_; }
 
  private:
-  [[nodiscard]] const std::vector<VoxelIndex>& of_kind(TargetKind kind) const;
+  struct Weighted {
+    std::vector<VoxelIndex> voxels;
+    std::vector<double> until;  ///< sum of the weights up to and with this one
+  };
+  using Kinds = std::array<Weighted, 4>;
+  [[nodiscard]] const Weighted& of_kind(TargetKind kind) const {
+    return (*kinds_)[static_cast<std::size_t>(kind)];
+  }
   [[nodiscard]] bool available(TargetKind kind) const {
-    return !closed_[static_cast<std::size_t>(kind)] && !of_kind(kind).empty();
+    return !closed_[static_cast<std::size_t>(kind)] && !of_kind(kind).voxels.empty();
   }
 
-  std::shared_ptr<const FrontierTargets> targets_ = std::make_shared<FrontierTargets>();
+  std::shared_ptr<const Kinds> kinds_ = std::make_shared<Kinds>();
   double resolution_m_ = 0.01;
   TargetShares shares_;
   std::array<bool, 4> closed_{};  // by kind

@@ -43,26 +43,35 @@ std::optional<ViewPose> ViewSampler::sample_once(const VoxelMap& map,
   return view;
 }
 
-// Target and position uniform, given that they are within the distances: a target is kept with a
-// chance in proportion to the part of the workspace in the box around its reach, and a position
-// drawn in that part is kept when it is in reach. Without the box most draws would be in vain.
+Box ViewSampler::part_in_reach(const Vec3& target_world) const {
+  const Vec3 reach = Vec3::Constant(options_.max_target_distance_m);
+  const Vec3 target_base = T_base_world_ * target_world;
+  return frame_->workspace_base.intersection(Box(target_base - reach, target_base + reach));
+}
+
+TargetSampler ViewSampler::targets_in_reach(const FrontierTargets& frontiers, double resolution_m,
+                                            const TargetShares& shares) const {
+  return {frontiers, resolution_m, shares, [this](const Vec3& target_world) {
+            const Box part = part_in_reach(target_world);
+            return part.isEmpty() ? 0.0 : part.volume();
+          }};
+}
+
+// Target and position uniform, given that they are within the distances: targets come with a chance
+// in proportion to the part of the workspace in the box around their reach, and a position drawn in
+// that part is kept when it is in reach.
 std::optional<ViewSampler::Sight> ViewSampler::draw_sight(const TargetSampler& targets,
                                                           TargetKind kind, Rng& rng) const {
-  const Vec3 reach = Vec3::Constant(options_.max_target_distance_m);
-  const double most =
-      std::min(8.0 * reach.prod(), frame_->workspace_base.volume());  // no part is larger
   const double nearest2 = options_.min_target_distance_m * options_.min_target_distance_m;
   const double farthest2 = options_.max_target_distance_m * options_.max_target_distance_m;
   for (int i = 0; i < options_.max_draws; ++i) {
     const Target target = targets.draw(kind, rng);
-    const Vec3 target_base = T_base_world_ * target.p_world;
-    const Box part =
-        frame_->workspace_base.intersection(Box(target_base - reach, target_base + reach));
-    if (part.isEmpty() || rng.uniform() * most >= part.volume()) continue;
+    const Box part = part_in_reach(target.p_world);
+    if (part.isEmpty()) continue;
     const Vec3 camera_base(rng.uniform(part.min().x(), part.max().x()),
                            rng.uniform(part.min().y(), part.max().y()),
                            rng.uniform(part.min().z(), part.max().z()));
-    const double distance2 = (camera_base - target_base).squaredNorm();
+    const double distance2 = (camera_base - T_base_world_ * target.p_world).squaredNorm();
     if (distance2 >= nearest2 && distance2 <= farthest2) {
       return Sight{target, frame_->T_world_base * camera_base};
     }

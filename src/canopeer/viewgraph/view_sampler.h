@@ -33,11 +33,17 @@ class ViewSampler {
   ViewSampler(const SegmentFrame& frame, const RobotModel& robot, const ArmIk& ik,
               const ViewSamplerOptions& options);
 
+  /// The targets of the map's frontiers that a camera in the workspace can have in reach, weighted
+  /// by the part of the workspace in the box around their reach.
+  [[nodiscard]] TargetSampler targets_in_reach(const FrontierTargets& frontiers,
+                                               double resolution_m,
+                                               const TargetShares& shares) const;
+
   /// One candidate; nothing when no try passes all tests. Its kind is drawn once and kept, so that
   /// the shares of the kinds hold among the views and not only among the tries (views of fruits
-  /// fail most often). The arm configuration is the collision-free one nearest to home, so that
-  /// neighbouring views are neighbours in joint space too. Thread-safe; `work` is counted in the
-  /// call.
+  /// fail most often). `targets` are those in reach. The arm configuration is the collision-free
+  /// one nearest to home, so that neighbouring views are neighbours in joint space too.
+  /// Thread-safe; `work` is counted in the call.
   [[nodiscard]] std::optional<ViewPose> sample(const VoxelMap& map, const CollisionChecker& checker,
                                                const TargetSampler& targets, Rng& rng,
                                                WorkMeter& work) const;
@@ -51,6 +57,8 @@ class ViewSampler {
                                                     const CollisionChecker& checker,
                                                     const TargetSampler& targets, TargetKind kind,
                                                     Rng& rng, WorkMeter& work) const;
+  /// Camera positions (base frame) in the workspace within the box around the reach of a target.
+  [[nodiscard]] Box part_in_reach(const Vec3& target_world) const;
   [[nodiscard]] std::optional<Sight> draw_sight(const TargetSampler& targets, TargetKind kind,
                                                 Rng& rng) const;
   [[nodiscard]] std::optional<Configuration> reach(const Sight& sight,
