@@ -40,6 +40,13 @@ inline VoxelIndex block_index(BlockKey key) {
 /// The block's voxel with the lowest indices.
 inline VoxelIndex block_origin(BlockKey key) { return block_index(key) * kBlockSide; }
 
+/// Place of a voxel among its block's, x fastest.
+inline std::size_t voxel_offset(const VoxelIndex& voxel) {
+  constexpr int kMask = kBlockSide - 1;
+  return static_cast<std::size_t>((voxel.z() & kMask) << (2 * kBlockShift) |
+                                  (voxel.y() & kMask) << kBlockShift | (voxel.x() & kMask));
+}
+
 /// One bit per voxel of a block: slice z, bit y · 8 + x.
 struct VoxelMask {
   std::array<std::uint64_t, kBlockSide> slices{};

@@ -24,8 +24,7 @@ class DepthPyramid {
 
  private:
   FlatPyramid flat_;
-  std::vector<float> min_;
-  std::vector<float> max_;
+  std::vector<float> bounds_;
 };
 
 }  // namespace canopeer

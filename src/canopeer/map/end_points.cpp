@@ -72,12 +72,6 @@ class RowProjection {
   std::vector<std::int32_t> x_, y_, z_, is_end_;
 };
 
-std::size_t voxel_offset(const VoxelIndex& voxel) {
-  constexpr int kMask = kBlockSide - 1;
-  return static_cast<std::size_t>((voxel.z() & kMask) << (2 * kBlockShift) |
-                                  (voxel.y() & kMask) << kBlockShift | (voxel.x() & kMask));
-}
-
 }  // namespace
 
 EndPoints find_end_points(const RgbdFrame& frame, const Mask& roi, const FusionOptions& options,

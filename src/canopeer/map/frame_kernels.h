@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "canopeer/base/simd_level.h"
+#include "canopeer/map/block.h"
 
 namespace canopeer {
 
@@ -42,8 +43,8 @@ struct FlatPyramid {
   int width = 0, height = 0;
   float fx = 0, fy = 0, cx = 0, cy = 0;
   const float* depth = nullptr;  ///< level 0, row-major
-  const float* min = nullptr;
-  const float* max = nullptr;
+  /// Two numbers a window, smallest and −largest: one look-up, and the least of both is wanted.
+  const float* bounds = nullptr;
   int top = 1;
   std::int32_t wide = 0;        ///< windows a row
   std::int32_t level_size = 0;  ///< windows a level; level 1 starts at 0
@@ -67,33 +68,39 @@ struct CubeViews {
   std::uint64_t all_free = 0;
 };
 
-/// 4 × 4 × 4 voxels: the first centre of each of the 4 slices (camera frame), and where the 16
-/// voxels of a slice (x fastest) are from there.
-struct VoxelLanes {
-  std::array<float, 4> x, y, z;
-};
-struct SliceOffsets {
-  alignas(64) std::array<float, 16> x;
-  alignas(64) std::array<float, 16> y;
-  alignas(64) std::array<float, 16> z;
+/// How the centres of a block's voxels come into the camera frame, m.
+struct BlockProjection {
+  std::array<std::array<double, 4>, 3> rows{};  ///< of T_camera_world
+  double resolution_m = 0.0;
+  /// Where the 16 voxels of a slice of a half block (4 × 4, x fastest) are from the first.
+  alignas(64) std::array<float, 16> x{};
+  alignas(64) std::array<float, 16> y{};
+  alignas(64) std::array<float, 16> z{};
 };
 
-/// What fusing a frame spends its time in, for one instruction set.
+/// The eight half blocks (4 × 4 × 4 voxels; x, y, z of the half from the lowest bit on) of a block,
+/// as far as they are decided.
+struct DecidedHalves {
+  unsigned none_free = 0;
+  unsigned all_free = 0;
+};
+
+/// What fusing a frame spends its time in, for one instruction set. None of them gathers: on many
+/// processors that is slower than loads one by one.
 struct FrameKernels {
   void (*end_point_row)(const PixelRow& row, const PixelRowEnds& ends);
-  /// out[i] = least (largest) of upper and lower [2 i], [2 i + 1], for `count` cells.
-  void (*halve_min)(const float* upper, const float* lower, std::size_t count, float* out);
-  void (*halve_max)(const float* upper, const float* lower, std::size_t count, float* out);
-  /// out[i] = least (largest) of upper and lower [i], [i + shift], for `count` items.
-  void (*widen_min)(const float* upper, const float* lower, std::size_t shift, std::size_t count,
-                    float* out);
-  void (*widen_max)(const float* upper, const float* lower, std::size_t shift, std::size_t count,
-                    float* out);
+  /// out[2 i] and [2 i + 1] = least and −largest of upper and lower [2 i], [2 i + 1], for `count`
+  /// windows.
+  void (*halve)(const float* upper, const float* lower, std::size_t count, float* out);
+  /// out[i] = least of upper and lower [i], [i + shift], for `count` items.
+  void (*widen)(const float* upper, const float* lower, std::size_t shift, std::size_t count,
+                float* out);
   /// Never wrong, not always decided.
   CubeViews (*classify)(const FlatPyramid& pyramid, const CubeLanes& cubes);
-  /// Bit slice · 16 + i: the voxel's centre is seen nearer than the depth at its pixel.
-  std::uint64_t (*seen_free)(const FlatPyramid& pyramid, const VoxelLanes& voxels,
-                             const SliceOffsets& offsets);
+  /// The voxels whose centres are seen nearer than the depth at their pixel, of the block with the
+  /// lowest voxel `corner`.
+  VoxelMask (*free_in_block)(const FlatPyramid& pyramid, const BlockProjection& projection,
+                             const std::array<int, 3>& corner, const DecidedHalves& decided);
 };
 
 /// `level` must be one the machine has.

@@ -76,13 +76,14 @@ class Frustum {
     const Eigen::Matrix3d step = T_camera_world_.linear() * resolution_m_;
     for (int i = 0; i < kPartSide * kPartSide; ++i) {
       const Vec3 offset = step.col(0) * (i % kPartSide) + step.col(1) * (i / kPartSide);
-      slice_.x[static_cast<std::size_t>(i)] = static_cast<float>(offset.x());
-      slice_.y[static_cast<std::size_t>(i)] = static_cast<float>(offset.y());
-      slice_.z[static_cast<std::size_t>(i)] = static_cast<float>(offset.z());
+      projection_.x[static_cast<std::size_t>(i)] = static_cast<float>(offset.x());
+      projection_.y[static_cast<std::size_t>(i)] = static_cast<float>(offset.y());
+      projection_.z[static_cast<std::size_t>(i)] = static_cast<float>(offset.z());
     }
+    projection_.resolution_m = resolution_m;
     for (int row = 0; row < 3; ++row) {
       for (int column = 0; column < 4; ++column) {
-        rows_[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] =
+        projection_.rows[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] =
             T_camera_world_.matrix()(row, column);
       }
     }
@@ -100,9 +101,6 @@ class Frustum {
   void find_in_chunk(const VoxelIndex& corner, FreeSpace& out) const;
   // Appends what of some blocks (at most 8) is free, looked at in half blocks.
   void find_in_blocks(std::span<const BlockKey> keys, FreeSpace& out) const;
-  [[nodiscard]] VoxelMask free_in_block(const VoxelIndex& corner, unsigned none_free,
-                                        unsigned all_free) const;
-  [[nodiscard]] std::uint64_t free_in_part(const VoxelIndex& corner) const;
 
   const FlatPyramid& pyramid_;
   CameraIntrinsics k_;
@@ -113,8 +111,7 @@ class Frustum {
   CubePattern chunk_;
   CubePattern blocks_;
   CubePattern parts_;
-  SliceOffsets slice_;
-  std::array<std::array<double, 4>, 3> rows_;  // of T_camera_world
+  BlockProjection projection_;
 };
 
 std::vector<VoxelIndex> Frustum::chunks() const {
@@ -187,60 +184,18 @@ void Frustum::find_in_blocks(std::span<const BlockKey> keys, FreeSpace& out) con
   }
   const CubeViews views = kernels_.classify(pyramid_, lanes);
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    const auto none_free = static_cast<unsigned>(views.none_free >> (8 * i) & 0xFF);
-    const auto all_free = static_cast<unsigned>(views.all_free >> (8 * i) & 0xFF);
-    if (none_free == 0xFF) continue;
-    const VoxelMask free = free_in_block(block_origin(keys[i]), none_free, all_free);
+    const DecidedHalves decided = {static_cast<unsigned>(views.none_free >> (8 * i) & 0xFF),
+                                   static_cast<unsigned>(views.all_free >> (8 * i) & 0xFF)};
+    if (decided.none_free == 0xFF) continue;
+    const VoxelIndex corner = block_origin(keys[i]);
+    const VoxelMask free = kernels_.free_in_block(pyramid_, projection_,
+                                                  {corner.x(), corner.y(), corner.z()}, decided);
     if (free.full()) {
       out.whole.push_back(keys[i]);
     } else if (free.any()) {
       out.parts.push_back({keys[i], free});
     }
   }
-}
-
-// Bits of half blocks: x, y, z of the half from the lowest bit on.
-VoxelMask Frustum::free_in_block(const VoxelIndex& corner, unsigned none_free,
-                                 unsigned all_free) const {
-  VoxelMask free;
-  for (int i = 0; i < 8; ++i) {
-    if ((none_free >> i & 1) != 0) continue;
-    const VoxelIndex part = corner + VoxelIndex(i & 1, i >> 1 & 1, i >> 2) * kPartSide;
-    const std::uint64_t seen = (all_free >> i & 1) != 0 ? ~std::uint64_t{0} : free_in_part(part);
-    const std::uint64_t first = VoxelMask::bit_of(part);
-    for (int z = 0; z < kPartSide; ++z) {
-      // Rows of 4 bits spread to the 8 a mask has.
-      const std::uint64_t rows = seen >> (16 * z) & 0xFFFF;
-      const std::uint64_t spread =
-          (rows & 0xF) | (rows & 0xF0) << 4 | (rows & 0xF00) << 8 | (rows & 0xF000) << 12;
-      free.slices[static_cast<std::size_t>(VoxelMask::slice_of(part) + z)] |= spread * first;
-    }
-  }
-  return free;
-}
-
-std::uint64_t Frustum::free_in_part(const VoxelIndex& corner) const {
-  const auto centre = [&](int axis, int steps) {
-    return (corner[axis] + steps + 0.5) * resolution_m_;
-  };
-  const double x = centre(0, 0);
-  const double y = centre(1, 0);
-  std::array<double, kPartSide> z;
-  for (std::size_t slice = 0; slice < kPartSide; ++slice) {
-    z[slice] = centre(2, static_cast<int>(slice));
-  }
-  const auto project = [&](std::size_t axis, std::array<float, kPartSide>& out) {
-    const auto& row = rows_[axis];
-    const double across = row[0] * x + row[1] * y;
-    for (std::size_t slice = 0; slice < kPartSide; ++slice) {
-      out[slice] = static_cast<float>(across + row[2] * z[slice] + row[3]);
-    }
-  };
-  VoxelLanes voxels;
-  project(0, voxels.x);
-  project(1, voxels.y);
-  project(2, voxels.z);
-  return kernels_.seen_free(pyramid_, voxels, slice_);
 }
 
 }  // namespace

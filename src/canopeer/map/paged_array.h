@@ -27,10 +27,14 @@ class PagedArray {
   T& owned(std::size_t i) { return pages_[i / kPageItems]->items[i % kPageItems]; }
   /// The new item's place.
   std::size_t push_back(const T& item) {
-    if (size_ == pages_.size() * kPageItems) pages_.emplace_back();
-    const std::size_t i = size_++;
+    const std::size_t i = add();
     own(i) = item;
     return i;
+  }
+  /// The same for an item yet to be written.
+  std::size_t add() {
+    if (size_ == pages_.size() * kPageItems) pages_.emplace_back();
+    return size_++;
   }
   void resize(std::size_t size, const T& item) {
     while (size_ < size) push_back(item);

@@ -57,8 +57,8 @@ struct UpdateResult {
 
 /// Voxel map of the world: per voxel a log-odds of being occupied and one of being region of
 /// interest (fruit), in a hash of 8³ blocks; per block bit masks of what the voxels are. Log-odds
-/// are fixed point (1/2048), so sums do not depend on order or machine. Blocks whose voxels all
-/// have one log-odds (most of free space) keep just that.
+/// are fixed point (1/2048), so sums do not depend on order or machine. Blocks whose observed
+/// voxels all have one log-odds (most of free space) keep just that.
 ///
 /// Const calls are thread-safe. A copy is a snapshot: it shares with the original what neither has
 /// changed since, costs a pointer a page of some dozen blocks, and may be read (or written) by
@@ -131,7 +131,7 @@ class VoxelMap {
   struct Block {
     BlockKey key = 0;
     std::uint64_t version = 0;
-    std::uint32_t log_odds = kNone;      // place in log_odds_; kNone: all voxels have `uniform`
+    std::uint32_t log_odds = kNone;      // place in log_odds_; kNone: all observed have `uniform`
     std::uint32_t roi_log_odds = kNone;  // only blocks with end points in them have some
     FixedPoint uniform = 0;
   };
@@ -139,7 +139,7 @@ class VoxelMap {
   struct Place {
     std::uint32_t slot = 0;
     std::uint8_t* summary = nullptr;
-    bool settled = false;  // nothing can move
+    const BlockUpdate* update = nullptr;  // nullptr: a miss for every voxel
   };
   struct Outcome {
     bool changed = false, uniform = false;
@@ -149,18 +149,19 @@ class VoxelMap {
   static LogOddsSteps fixed_point(const VoxelMapOptions& options);
   static std::array<FixedPoint, 256> confidence_steps(const VoxelMapOptions& options);
   std::uint32_t slot_for(BlockDirectory::Chunk& chunk, std::size_t place, BlockKey key);
-  std::uint32_t new_log_odds(FixedPoint value);
-  std::uint32_t own_log_odds(Block& block);
+  [[nodiscard]] FixedPoint after_miss(FixedPoint value) const;
+  std::uint32_t own_log_odds(Block& block, const VoxelMask& observed);
   std::uint32_t own_roi_log_odds(Block& block);
-  Place place_for(const BlockUpdate& update, BlockDirectory::Chunk& chunk);
+  bool apply_alike(const BlockUpdate& update, const Place& place, UpdateResult& result);
+  bool apply_uniform(const Place& place, UpdateResult& result);
+  void take_storage(const BlockUpdate& update, const Place& place);
   Outcome apply(const BlockUpdate& update, const Place& place, const LogOddsKernels& kernels);
   Outcome apply_all_free(const Place& place, const LogOddsKernels& kernels);
-  bool apply_uniform(BlockDirectory::Chunk& chunk, std::size_t in_chunk, BlockKey key,
-                     UpdateResult& result);
   void step_roi(const BlockUpdate& update, const Block& block, const LogOddsKernels& kernels,
                 VoxelMask& roi);
   void count(const Outcome& outcome, std::uint32_t slot, UpdateResult& result);
   static std::uint8_t summary_of(const BlockMasks& masks);
+  static Outcome compare(const BlockMasks& before, const BlockMasks& now);
   void write_log_odds(const VoxelIndex& voxel, double log_odds, bool roi);
 
   VoxelMapOptions options_;

@@ -1,0 +1,274 @@
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+#include <cstring>
+
+#include "canopeer/map/frame_kernel_parts.h"
+#include "canopeer/map/kernel_targets.h"
+
+namespace canopeer {
+namespace {
+
+constexpr int kHalf = kBlockSide / 2;
+constexpr std::size_t kHalfVoxels = 64;
+
+// Where the first voxels of each slice of a half block are, camera frame; four slices follow.
+struct HalfBlock {
+  const float* x;
+  const float* y;
+  const float* z;
+};
+
+// Per voxel of a half block: how deep it lies, and the pixel its centre falls on (pixel 0 when it
+// is not seen).
+struct Projected {
+  float* depth;
+  std::int32_t* pixel;
+};
+
+// Bit slice · 16 + i: the voxel is in the image.
+using Project = std::uint64_t (*)(const FlatPyramid&, const BlockProjection&, const HalfBlock&,
+                                  const Projected&);
+// Bit i: depth[i] < surface[i].
+using Nearer = std::uint64_t (*)(const float* depth, const float* surface);
+
+std::uint64_t project_scalar(const FlatPyramid& camera, const BlockProjection& offsets,
+                             const HalfBlock& half, const Projected& out) {
+  const auto width = static_cast<float>(camera.width);
+  const auto height = static_cast<float>(camera.height);
+  std::uint64_t seen = 0;
+  for (std::size_t lane = 0; lane < kHalfVoxels; ++lane) {
+    const std::size_t slice = lane / 16, i = lane % 16;
+    const float depth = half.z[slice] + offsets.z[i];
+    out.depth[lane] = depth;
+    out.pixel[lane] = 0;
+    if (!(depth > 0.0F)) continue;
+    const float inverse = 1.0F / depth;
+    const float u = camera.fx * (half.x[slice] + offsets.x[i]) * inverse + camera.cx;
+    const float v = camera.fy * (half.y[slice] + offsets.y[i]) * inverse + camera.cy;
+    if (!(u >= 0.0F && u < width && v >= 0.0F && v < height)) continue;
+    out.pixel[lane] = static_cast<std::int32_t>(v) * camera.width + static_cast<std::int32_t>(u);
+    seen |= std::uint64_t{1} << lane;
+  }
+  return seen;
+}
+
+std::uint64_t nearer_scalar(const float* depth, const float* surface) {
+  std::uint64_t nearer = 0;
+  for (std::size_t i = 0; i < kHalfVoxels; ++i) {
+    nearer |= static_cast<std::uint64_t>(depth[i] < surface[i]) << i;
+  }
+  return nearer;
+}
+
+#if defined(__x86_64__)
+
+// The vector twins do the same operations in the same order, lane by lane.
+
+CANOPEER_TARGET_AVX2 std::uint64_t project_avx2(const FlatPyramid& camera,
+                                                const BlockProjection& offsets,
+                                                const HalfBlock& half, const Projected& out) {
+  const __m256 zero = _mm256_setzero_ps();
+  const __m256 one = _mm256_set1_ps(1.0F);
+  const __m256 fx = _mm256_set1_ps(camera.fx), fy = _mm256_set1_ps(camera.fy);
+  const __m256 cx = _mm256_set1_ps(camera.cx), cy = _mm256_set1_ps(camera.cy);
+  const __m256 width = _mm256_set1_ps(static_cast<float>(camera.width));
+  const __m256 height = _mm256_set1_ps(static_cast<float>(camera.height));
+  const __m256i row = _mm256_set1_epi32(camera.width);
+  std::uint64_t seen = 0;
+  for (std::size_t part = 0; part < 8; ++part) {
+    const std::size_t slice = part / 2, i = part % 2 * 8;
+    const __m256 depth =
+        _mm256_add_ps(_mm256_set1_ps(half.z[slice]), _mm256_load_ps(&offsets.z[i]));
+    const __m256 before = _mm256_cmp_ps(depth, zero, _CMP_GT_OQ);
+    const __m256 inverse = _mm256_div_ps(one, _mm256_blendv_ps(one, depth, before));
+    const __m256 x = _mm256_add_ps(_mm256_set1_ps(half.x[slice]), _mm256_load_ps(&offsets.x[i]));
+    const __m256 y = _mm256_add_ps(_mm256_set1_ps(half.y[slice]), _mm256_load_ps(&offsets.y[i]));
+    const __m256 u = _mm256_add_ps(_mm256_mul_ps(_mm256_mul_ps(fx, x), inverse), cx);
+    const __m256 v = _mm256_add_ps(_mm256_mul_ps(_mm256_mul_ps(fy, y), inverse), cy);
+    const __m256 across =
+        _mm256_and_ps(_mm256_cmp_ps(u, zero, _CMP_GE_OQ), _mm256_cmp_ps(u, width, _CMP_LT_OQ));
+    const __m256 along =
+        _mm256_and_ps(_mm256_cmp_ps(v, zero, _CMP_GE_OQ), _mm256_cmp_ps(v, height, _CMP_LT_OQ));
+    const __m256 in_image = _mm256_and_ps(before, _mm256_and_ps(across, along));
+    const __m256i rows = _mm256_mullo_epi32(_mm256_cvttps_epi32(_mm256_and_ps(v, in_image)), row);
+    const __m256i columns = _mm256_cvttps_epi32(_mm256_and_ps(u, in_image));
+    _mm256_store_ps(out.depth + 8 * part, depth);
+    _mm256_store_si256(reinterpret_cast<__m256i*>(out.pixel + 8 * part),
+                       _mm256_add_epi32(rows, columns));
+    const auto bits = static_cast<unsigned>(_mm256_movemask_ps(in_image));
+    seen |= std::uint64_t{bits} << (8 * part);
+  }
+  return seen;
+}
+
+CANOPEER_TARGET_AVX2 std::uint64_t nearer_avx2(const float* depth, const float* surface) {
+  std::uint64_t nearer = 0;
+  for (std::size_t i = 0; i < kHalfVoxels; i += 8) {
+    const auto bits = static_cast<unsigned>(_mm256_movemask_ps(
+        _mm256_cmp_ps(_mm256_load_ps(depth + i), _mm256_load_ps(surface + i), _CMP_LT_OQ)));
+    nearer |= std::uint64_t{bits} << i;
+  }
+  return nearer;
+}
+
+CANOPEER_TARGET_AVX512 std::uint64_t project_avx512(const FlatPyramid& camera,
+                                                    const BlockProjection& offsets,
+                                                    const HalfBlock& half, const Projected& out) {
+  const __m512 zero = _mm512_setzero_ps();
+  const __m512 one = _mm512_set1_ps(1.0F);
+  const __m512 fx = _mm512_set1_ps(camera.fx), fy = _mm512_set1_ps(camera.fy);
+  const __m512 cx = _mm512_set1_ps(camera.cx), cy = _mm512_set1_ps(camera.cy);
+  const __m512 width = _mm512_set1_ps(static_cast<float>(camera.width));
+  const __m512 height = _mm512_set1_ps(static_cast<float>(camera.height));
+  const __m512i row = _mm512_set1_epi32(camera.width);
+  std::uint64_t seen = 0;
+  for (std::size_t slice = 0; slice < 4; ++slice) {
+    const __m512 depth =
+        _mm512_add_ps(_mm512_set1_ps(half.z[slice]), _mm512_load_ps(&offsets.z[0]));
+    const __mmask16 before = _mm512_cmp_ps_mask(depth, zero, _CMP_GT_OQ);
+    const __m512 inverse = _mm512_div_ps(one, _mm512_mask_blend_ps(before, one, depth));
+    const __m512 x = _mm512_add_ps(_mm512_set1_ps(half.x[slice]), _mm512_load_ps(&offsets.x[0]));
+    const __m512 y = _mm512_add_ps(_mm512_set1_ps(half.y[slice]), _mm512_load_ps(&offsets.y[0]));
+    const __m512 u = _mm512_add_ps(_mm512_mul_ps(_mm512_mul_ps(fx, x), inverse), cx);
+    const __m512 v = _mm512_add_ps(_mm512_mul_ps(_mm512_mul_ps(fy, y), inverse), cy);
+    const __mmask16 across = _mm512_mask_cmp_ps_mask(
+        _mm512_mask_cmp_ps_mask(before, u, zero, _CMP_GE_OQ), u, width, _CMP_LT_OQ);
+    const __mmask16 in_image = _mm512_mask_cmp_ps_mask(
+        _mm512_mask_cmp_ps_mask(across, v, zero, _CMP_GE_OQ), v, height, _CMP_LT_OQ);
+    const __m512i rows = _mm512_mullo_epi32(_mm512_maskz_cvttps_epi32(in_image, v), row);
+    _mm512_store_ps(out.depth + 16 * slice, depth);
+    _mm512_store_si512(out.pixel + 16 * slice,
+                       _mm512_add_epi32(rows, _mm512_maskz_cvttps_epi32(in_image, u)));
+    seen |= std::uint64_t{in_image} << (16 * slice);
+  }
+  return seen;
+}
+
+CANOPEER_TARGET_AVX512 std::uint64_t nearer_avx512(const float* depth, const float* surface) {
+  std::uint64_t nearer = 0;
+  for (std::size_t i = 0; i < kHalfVoxels; i += 16) {
+    const __mmask16 bits =
+        _mm512_cmp_ps_mask(_mm512_load_ps(depth + i), _mm512_load_ps(surface + i), _CMP_LT_OQ);
+    nearer |= std::uint64_t{bits} << i;
+  }
+  return nearer;
+}
+
+#endif
+
+// One by one, and no compiler makes it otherwise.
+#if defined(__GNUC__) && !defined(__clang__)
+[[gnu::noinline, gnu::optimize("no-tree-vectorize", "no-tree-slp-vectorize")]]
+#else
+[[gnu::noinline]]
+#endif
+void look_up(const float* depth, const std::int32_t* pixel, std::size_t count, float* surface) {
+  // As integers: a vector register written in part would wait for its other part.
+  for (std::size_t i = 0; i < count; i += 8) {
+    for (std::size_t k = 0; k < 8; ++k) {
+      std::uint32_t bits;
+      std::memcpy(&bits, depth + pixel[i + k], sizeof bits);
+      std::memcpy(surface + i + k, &bits, sizeof bits);
+    }
+  }
+}
+
+// The first centres of the block's half slices in the camera frame: x and y half; axis; slice.
+using FirstCentres = float[4][3][kBlockSide];
+
+CANOPEER_KERNEL_BODY void find_first_centres(const BlockProjection& projection,
+                                             const std::array<int, 3>& corner,
+                                             FirstCentres& first) {
+  const auto centre = [&](std::size_t axis, int steps) {
+    return (corner[axis] + steps + 0.5) * projection.resolution_m;
+  };
+  double z[kBlockSide];
+  for (int slice = 0; slice < kBlockSide; ++slice) z[slice] = centre(2, slice);
+  for (int column = 0; column < 4; ++column) {
+    const double x = centre(0, (column & 1) * kHalf);
+    const double y = centre(1, (column >> 1) * kHalf);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto& row = projection.rows[axis];
+      const double across = row[0] * x + row[1] * y;
+      for (int slice = 0; slice < kBlockSide; ++slice) {
+        first[column][axis][slice] = static_cast<float>(across + row[2] * z[slice] + row[3]);
+      }
+    }
+  }
+}
+
+// Bits of half block `i` to where a block's mask has them.
+CANOPEER_KERNEL_BODY void add_half(unsigned i, std::uint64_t bits, VoxelMask& mask) {
+  const unsigned slice = i >> 2 ? kHalf : 0;
+  const unsigned shift = (i & 1) * kHalf + (i >> 1 & 1) * kHalf * kBlockSide;
+  for (unsigned k = 0; k < kHalf; ++k) {
+    // Rows of 4 bits spread to the 8 a mask has.
+    const std::uint64_t rows = bits >> (16 * k) & 0xFFFF;
+    const std::uint64_t spread =
+        (rows & 0xF) | (rows & 0xF0) << 4 | (rows & 0xF00) << 8 | (rows & 0xF000) << 12;
+    mask.slices[slice + k] |= spread << shift;
+  }
+}
+
+// Three passes over the halves to be looked at, so that none waits for what the one before stored.
+CANOPEER_KERNEL_BODY VoxelMask free_in_block_body(const FlatPyramid& camera,
+                                                  const BlockProjection& projection,
+                                                  const std::array<int, 3>& corner,
+                                                  const DecidedHalves& decided, Project project,
+                                                  Nearer nearer) {
+  alignas(64) FirstCentres first;
+  find_first_centres(projection, corner, first);
+  alignas(64) float depth[kBlockVoxels];
+  alignas(64) float surface[kBlockVoxels];
+  alignas(64) std::int32_t pixel[kBlockVoxels];
+  std::uint64_t seen[8];
+  std::size_t count = 0;
+  for (unsigned i = 0; i < 8; ++i) {
+    if (((decided.none_free | decided.all_free) >> i & 1) != 0) continue;
+    const auto& at = first[i & 3];
+    const unsigned slice = i >> 2 ? kHalf : 0;
+    seen[i] = project(camera, projection, {at[0] + slice, at[1] + slice, at[2] + slice},
+                      {depth + count, pixel + count});
+    count += kHalfVoxels;
+  }
+  look_up(camera.depth, pixel, count, surface);
+  VoxelMask free;
+  count = 0;
+  for (unsigned i = 0; i < 8; ++i) {
+    if ((decided.none_free >> i & 1) != 0) continue;
+    if ((decided.all_free >> i & 1) != 0) {
+      add_half(i, ~std::uint64_t{0}, free);
+      continue;
+    }
+    add_half(i, nearer(depth + count, surface + count) & seen[i], free);
+    count += kHalfVoxels;
+  }
+  return free;
+}
+
+#define CANOPEER_KERNELS(NAME, TARGET)                                                             \
+  TARGET VoxelMask free_in_block_##NAME(                                                           \
+      const FlatPyramid& camera, const BlockProjection& projection,                                \
+      const std::array<int, 3>& corner, const DecidedHalves& decided) {                            \
+    return free_in_block_body(camera, projection, corner, decided, project_##NAME, nearer_##NAME); \
+  }
+
+CANOPEER_KERNELS(scalar, )
+#if defined(__x86_64__)
+CANOPEER_KERNELS(avx2, CANOPEER_TARGET_AVX2)
+CANOPEER_KERNELS(avx512, CANOPEER_TARGET_AVX512)
+#endif
+
+}  // namespace
+
+FreeInBlockKernel free_in_block_kernel([[maybe_unused]] SimdLevel level) {
+#if defined(__x86_64__)
+  if (level == SimdLevel::avx512) return free_in_block_avx512;
+  if (level == SimdLevel::avx2) return free_in_block_avx2;
+#endif
+  return free_in_block_scalar;
+}
+
+}  // namespace canopeer

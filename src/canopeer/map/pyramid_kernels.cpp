@@ -1,0 +1,190 @@
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+#include <bit>
+
+#include "canopeer/map/frame_kernel_parts.h"
+#include "canopeer/map/kernel_targets.h"
+
+namespace canopeer {
+namespace {
+
+// Minimum and maximum as the vector instructions have them: no NaN comes here.
+template <typename T>
+CANOPEER_KERNEL_BODY T least(T a, T b) {
+  return a < b ? a : b;
+}
+template <typename T>
+CANOPEER_KERNEL_BODY T most(T a, T b) {
+  return a > b ? a : b;
+}
+
+CANOPEER_KERNEL_BODY void halve_body(const float* upper, const float* lower, std::size_t count,
+                                     float* __restrict out) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float a = upper[2 * i], b = upper[2 * i + 1], c = lower[2 * i], d = lower[2 * i + 1];
+    out[2 * i] = least(least(a, b), least(c, d));
+    out[2 * i + 1] = -most(most(a, b), most(c, d));
+  }
+}
+
+CANOPEER_KERNEL_BODY void widen_body(const float* upper, const float* lower, std::size_t shift,
+                                     std::size_t count, float* __restrict out) {
+  for (std::size_t i = 0; i < count; ++i) {
+    out[i] = least(least(upper[i], upper[i + shift]), least(lower[i], lower[i + shift]));
+  }
+}
+
+// Bytes that are 0 or 1 to bits.
+template <std::size_t kCount>
+CANOPEER_KERNEL_BODY std::uint64_t pack_bits(const std::uint8_t* flags) {
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < kCount / 8; ++i) {
+    std::uint64_t bytes = 0;
+    __builtin_memcpy(&bytes, flags + 8 * i, 8);
+    bits |= (bytes * 0x0102040810204080U >> 56) << (8 * i);
+  }
+  return bits;
+}
+
+constexpr float kNearest = 0.05F;  // m; nearer cubes are not decided
+constexpr float kPixels = 0.25F;   // to spare, as voxels are projected in single precision
+constexpr float kMargin = 1e-5F;   // of depth, for the same reason: this + kShare · depth
+constexpr float kShare = 1e-6F;
+
+// What is known of the cubes before any depth is looked up, and the four windows that cover each.
+struct CubeWindows {
+  using Flags = std::array<std::uint8_t, CubeLanes::kMax>;
+  using Places = std::array<std::int32_t, CubeLanes::kMax>;
+  alignas(64) Places place[4];
+  alignas(64) Flags none{};      // nothing free, whatever the depths
+  alignas(64) Flags may_none{};  // nothing free if it lies behind all depths
+  alignas(64) Flags may_all{};   // all free if it lies before all depths
+};
+
+CANOPEER_KERNEL_BODY void find_windows(const FlatPyramid& pyramid, const CubeLanes& cubes,
+                                       CubeWindows& windows) {
+  const auto width = static_cast<float>(pyramid.width);
+  const auto height = static_cast<float>(pyramid.height);
+  for (std::size_t i = 0; i < cubes.count; ++i) {
+    const float x_low = cubes.x[i] - cubes.half[0], x_high = cubes.x[i] + cubes.half[0];
+    const float y_low = cubes.y[i] - cubes.half[1], y_high = cubes.y[i] + cubes.half[1];
+    const float z_low = cubes.z[i] - cubes.half[2], z_high = cubes.z[i] + cubes.half[2];
+    const float margin = kMargin + kShare * most(z_high, 0.0F);
+    const bool behind = (z_high <= 0.0F) | (z_low >= pyramid.largest + margin);
+    const bool apart = z_low >= kNearest;
+    // Bounds of x / z over the box.
+    const float by_near = 1.0F / most(z_low, kNearest);
+    const float by_far = 1.0F / most(z_high, kNearest);
+    const float u_low =
+        pyramid.fx * (x_low * (x_low < 0.0F ? by_near : by_far)) + pyramid.cx - kPixels;
+    const float u_high =
+        pyramid.fx * (x_high * (x_high < 0.0F ? by_far : by_near)) + pyramid.cx + kPixels;
+    const float v_low =
+        pyramid.fy * (y_low * (y_low < 0.0F ? by_near : by_far)) + pyramid.cy - kPixels;
+    const float v_high =
+        pyramid.fy * (y_high * (y_high < 0.0F ? by_far : by_near)) + pyramid.cy + kPixels;
+    const bool outside = (u_high < 0.0F) | (v_high < 0.0F) | (u_low >= width) | (v_low >= height);
+    const bool inside = (u_low >= 0.0F) & (v_low >= 0.0F) & (u_high < width) & (v_high < height);
+    const auto u0 = static_cast<std::int32_t>(least(most(u_low, 0.0F), width - 1.0F));
+    const auto v0 = static_cast<std::int32_t>(least(most(v_low, 0.0F), height - 1.0F));
+    const auto u1 = static_cast<std::int32_t>(least(most(u_high, 0.0F), width - 1.0F));
+    const auto v1 = static_cast<std::int32_t>(least(most(v_high, 0.0F), height - 1.0F));
+    // The smallest windows of which two overlapping ones span the longer side, wherever they may
+    // start: floor(log2(pixels + 1)), read off the exponent.
+    const std::int32_t pixels = most(u1 - u0, v1 - v0) + 1;
+    const std::int32_t wanted =
+        (std::bit_cast<std::int32_t>(static_cast<float>(pixels + 1)) >> 23) - 127;
+    const bool covered = wanted <= pyramid.top;
+    const std::int32_t level = least(wanted, pyramid.top);
+    const std::int32_t side = 1 << level;
+    const std::int32_t column0 = u0 >> 1;
+    const std::int32_t column1 = most(column0, (u1 - side + 2) >> 1);
+    const std::int32_t offset = (level - 1) * pyramid.level_size;
+    const std::int32_t row0 = offset + (v0 >> 1) * pyramid.wide;
+    const std::int32_t row1 = offset + most(v0 >> 1, (v1 - side + 2) >> 1) * pyramid.wide;
+    windows.place[0][i] = 2 * (row0 + column0);
+    windows.place[1][i] = 2 * (row0 + column1);
+    windows.place[2][i] = 2 * (row1 + column0);
+    windows.place[3][i] = 2 * (row1 + column1);
+    windows.none[i] = (behind | (apart & outside)) ? 1 : 0;
+    windows.may_none[i] = (apart & covered) ? 1 : 0;
+    windows.may_all[i] = (apart & inside & covered) ? 1 : 0;
+  }
+}
+
+// bounds[2 i] and [2 i + 1]: smallest and −largest depth of cube i's windows.
+CANOPEER_KERNEL_BODY void look_up(const FlatPyramid& pyramid, const CubeWindows& windows,
+                                  std::size_t count, float* bounds) {
+  for (std::size_t i = 0; i < count; ++i) {
+#if defined(__x86_64__)
+    const auto window = [&](std::size_t w) {
+      return _mm_castsi128_ps(
+          _mm_loadl_epi64(reinterpret_cast<const __m128i*>(pyramid.bounds + windows.place[w][i])));
+    };
+    const __m128 both =
+        _mm_min_ps(_mm_min_ps(window(0), window(1)), _mm_min_ps(window(2), window(3)));
+    _mm_storel_epi64(reinterpret_cast<__m128i*>(bounds + 2 * i), _mm_castps_si128(both));
+#else
+    for (std::size_t which = 0; which < 2; ++which) {
+      const auto window = [&](std::size_t w) {
+        return pyramid.bounds[static_cast<std::size_t>(windows.place[w][i]) + which];
+      };
+      bounds[2 * i + which] = least(least(window(0), window(1)), least(window(2), window(3)));
+    }
+#endif
+  }
+}
+
+CANOPEER_KERNEL_BODY CubeViews classify_body(const FlatPyramid& pyramid, const CubeLanes& cubes) {
+  CubeWindows windows;
+  find_windows(pyramid, cubes, windows);
+  alignas(64) std::array<float, 2 * CubeLanes::kMax> bounds;
+  look_up(pyramid, windows, cubes.count, bounds.data());
+  alignas(64) CubeWindows::Flags none{}, all{};
+  for (std::size_t i = 0; i < cubes.count; ++i) {
+    const float z_low = cubes.z[i] - cubes.half[2], z_high = cubes.z[i] + cubes.half[2];
+    const float margin = kMargin + kShare * most(z_high, 0.0F);
+    const float nearest = bounds[2 * i], farthest = -bounds[2 * i + 1];
+    const bool beyond = z_low > farthest + margin;
+    const bool before = z_high < nearest - margin;
+    none[i] = static_cast<std::uint8_t>(windows.none[i] |
+                                        (windows.may_none[i] & static_cast<std::uint8_t>(beyond)));
+    all[i] = static_cast<std::uint8_t>((none[i] ^ 1) & windows.may_all[i] &
+                                       static_cast<std::uint8_t>(before));
+  }
+  return {pack_bits<CubeLanes::kMax>(none.data()), pack_bits<CubeLanes::kMax>(all.data())};
+}
+
+#define CANOPEER_KERNELS(NAME, TARGET)                                                   \
+  TARGET void halve_##NAME(const float* upper, const float* lower, std::size_t count,    \
+                           float* out) {                                                 \
+    halve_body(upper, lower, count, out);                                                \
+  }                                                                                      \
+  TARGET void widen_##NAME(const float* upper, const float* lower, std::size_t shift,    \
+                           std::size_t count, float* out) {                              \
+    widen_body(upper, lower, shift, count, out);                                         \
+  }                                                                                      \
+  TARGET CubeViews classify_##NAME(const FlatPyramid& pyramid, const CubeLanes& cubes) { \
+    return classify_body(pyramid, cubes);                                                \
+  }                                                                                      \
+  constexpr PyramidKernels kPyramid_##NAME = {halve_##NAME, widen_##NAME, classify_##NAME};
+
+CANOPEER_KERNELS(scalar, )
+#if defined(__x86_64__)
+CANOPEER_KERNELS(avx2, CANOPEER_TARGET_AVX2)
+CANOPEER_KERNELS(avx512, CANOPEER_TARGET_AVX512)
+#endif
+
+}  // namespace
+
+PyramidKernels pyramid_kernels([[maybe_unused]] SimdLevel level) {
+#if defined(__x86_64__)
+  if (level == SimdLevel::avx512) return kPyramid_avx512;
+  if (level == SimdLevel::avx2) return kPyramid_avx2;
+#endif
+  return kPyramid_scalar;
+}
+
+}  // namespace canopeer

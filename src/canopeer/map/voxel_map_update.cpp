@@ -1,0 +1,293 @@
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "canopeer/map/voxel_map.h"
+
+namespace canopeer {
+namespace {
+
+// Finds the chunks of blocks that come chunk by chunk.
+class Chunks {
+ public:
+  explicit Chunks(BlockDirectory& directory) : directory_(directory) {}
+  BlockDirectory::Chunk& of(BlockKey key) {
+    if (BlockDirectory::chunk_key(key) != key_) {
+      key_ = BlockDirectory::chunk_key(key);
+      chunk_ = &directory_.chunk_to_write(key);
+    }
+    return *chunk_;
+  }
+
+ private:
+  BlockDirectory& directory_;
+  BlockDirectory::Chunk* chunk_ = nullptr;
+  BlockKey key_ = ~BlockKey{0};
+};
+
+}  // namespace
+
+std::uint32_t VoxelMap::slot_for(BlockDirectory::Chunk& chunk, std::size_t place, BlockKey key) {
+  const std::uint32_t slot = directory_.find_or_add(chunk, place);
+  if (slot == blocks_.size()) {
+    Block block;
+    block.key = key;
+    blocks_.push_back(block);
+    masks_.push_back({});
+  }
+  return slot;
+}
+
+VoxelMap::FixedPoint VoxelMap::after_miss(FixedPoint value) const {
+  return static_cast<FixedPoint>(std::clamp<int>(value + steps_.miss, steps_.min, steps_.max));
+}
+
+// The observed voxels have the block's one value, the others 0.
+std::uint32_t VoxelMap::own_log_odds(Block& block, const VoxelMask& observed) {
+  if (block.log_odds != kNone) {
+    log_odds_.own(block.log_odds);
+    return block.log_odds;
+  }
+  if (unused_log_odds_.empty()) {
+    block.log_odds = static_cast<std::uint32_t>(log_odds_.add());
+  } else {
+    block.log_odds = unused_log_odds_.back();
+    unused_log_odds_.pop_back();
+  }
+  BlockLogOdds& cells = log_odds_.own(block.log_odds);
+  cells.fill(0);
+  LogOddsSteps steps;
+  steps.miss = steps.min = steps.max = block.uniform;
+  VoxelMask above;
+  log_odds_kernels(best_simd_level()).step(cells.data(), {}, observed, steps, above);
+  return block.log_odds;
+}
+
+std::uint32_t VoxelMap::own_roi_log_odds(Block& block) {
+  if (block.roi_log_odds == kNone) {
+    block.roi_log_odds = static_cast<std::uint32_t>(roi_log_odds_.push_back(BlockLogOdds{}));
+  } else {
+    roi_log_odds_.own(block.roi_log_odds);
+  }
+  return block.roi_log_odds;
+}
+
+std::uint8_t VoxelMap::summary_of(const BlockMasks& masks) {
+  unsigned summary = 0;
+  if (masks.occupied.any()) summary |= BlockSummary::kOccupied;
+  if (masks.observed.full()) summary |= BlockSummary::kComplete;
+  if (masks.roi.any()) summary |= BlockSummary::kRoi;
+  return static_cast<std::uint8_t>(summary);
+}
+
+VoxelMap::Outcome VoxelMap::compare(const BlockMasks& before, const BlockMasks& now) {
+  Outcome outcome;
+  outcome.changed = !(now.observed == before.observed && now.occupied == before.occupied &&
+                      now.roi == before.roi);
+  if (!outcome.changed) return outcome;
+  outcome.observed = now.observed.count() - before.observed.count();
+  outcome.occupied = now.occupied.count() - before.occupied.count();
+  outcome.roi = now.roi.count() - before.roi.count();
+  return outcome;
+}
+
+// Misses that leave a block's observed voxels with one value for all: the first ones, the same ones
+// again, or others when none was missed more than once. False: they would not.
+bool VoxelMap::apply_alike(const BlockUpdate& update, const Place& place, UpdateResult& result) {
+  if (blocks_[place.slot].log_odds != kNone || update.hit.any() || update.roi_hit.any() ||
+      update.roi_miss.any()) {
+    return false;
+  }
+  const FixedPoint first = after_miss(0);
+  const VoxelMask& observed = masks_[place.slot].observed;
+  FixedPoint value = first;
+  if (observed.any()) {
+    VoxelMask again = observed;
+    again &= update.miss;
+    value = blocks_[place.slot].uniform;
+    if (again.any()) {
+      if (!(observed == update.miss)) return false;
+      value = after_miss(value);
+    } else if (value != first) {
+      return false;
+    }
+  }
+  Block& block = blocks_.own(place.slot);
+  BlockMasks& masks = masks_.own(place.slot);
+  const BlockMasks before = masks;
+  block.uniform = value;
+  masks.observed |= update.miss;
+  masks.occupied = value >= steps_.threshold ? masks.observed : VoxelMask{};
+  Outcome outcome = compare(before, masks);
+  outcome.stepped = update.miss.count();
+  if (outcome.changed) {
+    *place.summary = summary_of(masks);
+    block.version = updates_;
+  }
+  count(outcome, place.slot, result);
+  return true;
+}
+
+// Storage is taken on one thread and in the order given: slots never depend on the schedule.
+void VoxelMap::take_storage(const BlockUpdate& update, const Place& place) {
+  Block& block = blocks_.own(place.slot);
+  own_log_odds(block, masks_.own(place.slot).observed);
+  if (update.roi_hit.any() || update.roi_miss.any()) own_roi_log_odds(block);
+}
+
+void VoxelMap::step_roi(const BlockUpdate& update, const Block& block,
+                        const LogOddsKernels& kernels, VoxelMask& roi) {
+  FixedPoint* cells = roi_log_odds_.owned(block.roi_log_odds).data();
+  if (update.roi_confidence == nullptr) {
+    kernels.step(cells, update.roi_hit, update.roi_miss, steps_, roi);
+    return;
+  }
+  kernels.step(cells, {}, update.roi_miss, steps_, roi);
+  for_each_voxel(update.key, update.roi_hit, [&](const VoxelIndex& voxel) {
+    VoxelMask one;
+    one.set(voxel);
+    LogOddsSteps steps = steps_;
+    steps.hit = confidence_steps_[update.roi_confidence[voxel_offset(voxel)]];
+    log_odds_kernels(SimdLevel::scalar).step(cells, one, {}, steps, roi);
+  });
+}
+
+VoxelMap::Outcome VoxelMap::apply(const BlockUpdate& update, const Place& place,
+                                  const LogOddsKernels& kernels) {
+  Block& block = blocks_.owned(place.slot);
+  BlockMasks& masks = masks_.owned(place.slot);
+  const BlockMasks before = masks;
+  VoxelMask stepped = update.hit;
+  stepped |= update.miss;
+  masks.observed |= stepped;
+  kernels.step(log_odds_.owned(block.log_odds).data(), update.hit, update.miss, steps_,
+               masks.occupied);
+  if (update.roi_hit.any() || update.roi_miss.any()) step_roi(update, block, kernels, masks.roi);
+  *place.summary &= static_cast<std::uint8_t>(~BlockSummary::kSettled);
+  Outcome outcome = compare(before, masks);
+  outcome.stepped = stepped.count();
+  if (!outcome.changed) return outcome;
+  *place.summary = summary_of(masks);
+  block.version = updates_;
+  return outcome;
+}
+
+// A miss for every voxel of a block that has log-odds of its own; all of one value, it needs them
+// no more.
+VoxelMap::Outcome VoxelMap::apply_all_free(const Place& place, const LogOddsKernels& kernels) {
+  Block& block = blocks_.owned(place.slot);
+  BlockMasks& masks = masks_.owned(place.slot);
+  const BlockMasks before = masks;
+  BlockLogOdds& cells = log_odds_.owned(block.log_odds);
+  const LogOddsRange range = kernels.miss_all(cells.data(), steps_);
+  masks.observed = VoxelMask::all();
+  if (range.max < steps_.threshold) {
+    masks.occupied = {};
+  } else {
+    for (std::size_t i = 0; i < kBlockVoxels; ++i) {
+      const std::uint64_t bit = std::uint64_t{1} << i % 64;
+      std::uint64_t& slice = masks.occupied.slices[i / 64];
+      slice = cells[i] >= steps_.threshold ? slice | bit : slice & ~bit;
+    }
+  }
+  Outcome outcome = compare(before, masks);
+  outcome.stepped = kBlockVoxels;
+  outcome.uniform = range.min == range.max;
+  block.uniform = range.min;
+  *place.summary = static_cast<std::uint8_t>(
+      summary_of(masks) |
+      (outcome.uniform && range.min == steps_.min ? BlockSummary::kSettled : 0));
+  if (outcome.changed) block.version = updates_;
+  return outcome;
+}
+
+// A miss for every voxel of a block that has one value for all, or is new. False: it is neither.
+bool VoxelMap::apply_uniform(const Place& place, UpdateResult& result) {
+  std::uint8_t& summary = *place.summary;
+  if ((summary & BlockSummary::kSettled) == 0) {
+    if (blocks_[place.slot].log_odds != kNone) return false;
+    const bool is_new = (summary & BlockSummary::kComplete) == 0;
+    if (is_new && masks_[place.slot].observed.any()) return false;
+    const bool was_occupied = (summary & BlockSummary::kOccupied) != 0;
+    Block& block = blocks_.own(place.slot);
+    block.uniform = after_miss(block.uniform);
+    const bool occupied = block.uniform >= steps_.threshold;
+    if (is_new || occupied != was_occupied) {
+      BlockMasks& masks = masks_.own(place.slot);
+      masks.observed = VoxelMask::all();
+      masks.occupied = occupied ? VoxelMask::all() : VoxelMask{};
+      summary = summary_of(masks);
+      block.version = updates_;
+      result.newly_known += is_new ? kBlockVoxels : 0;
+      occupied_voxels_ += kBlockVoxels * (int{occupied} - int{was_occupied});
+      result.changed.push_back(block.key);
+    }
+    if (block.uniform == steps_.min) summary |= BlockSummary::kSettled;
+  }
+  result.updated_voxels += kBlockVoxels;
+  return true;
+}
+
+void VoxelMap::count(const Outcome& outcome, std::uint32_t slot, UpdateResult& result) {
+  result.updated_voxels += outcome.stepped;
+  result.newly_known += outcome.observed;
+  occupied_voxels_ += outcome.occupied;
+  roi_voxels_ += outcome.roi;
+  if (outcome.changed) result.changed.push_back(blocks_[slot].key);
+  if (outcome.uniform) {
+    Block& block = blocks_.owned(slot);
+    unused_log_odds_.push_back(block.log_odds);
+    block.log_odds = kNone;
+  }
+}
+
+// What is done in a few words is done at once; the rest, with its storage in place, in parallel.
+UpdateResult VoxelMap::apply(std::span<const BlockUpdate> updates,
+                             std::span<const BlockKey> all_free, SimdLevel simd) {
+  ++updates_;
+  UpdateResult result;
+  Chunks chunks(directory_);
+  const auto place_of = [&](BlockKey key) {
+    BlockDirectory::Chunk& chunk = chunks.of(key);
+    const std::size_t in_chunk = BlockDirectory::place_in_chunk(key);
+    Place place;
+    place.slot = slot_for(chunk, in_chunk, key);
+    place.summary = &chunk.summaries[in_chunk];
+    return place;
+  };
+  std::vector<Place> places;
+  places.reserve(updates.size());
+  for (const BlockUpdate& update : updates) {
+    Place place = place_of(update.key);
+    const bool settled = (*place.summary & BlockSummary::kSettled) != 0;
+    if (settled && !update.hit.any() && !update.roi_hit.any() && !update.roi_miss.any()) {
+      result.updated_voxels += update.miss.count();  // nothing can move
+    } else if (!apply_alike(update, place, result)) {
+      take_storage(update, place);
+      place.update = &update;
+      places.push_back(place);
+    }
+  }
+  for (const BlockKey key : all_free) {
+    const Place place = place_of(key);
+    if (apply_uniform(place, result)) continue;
+    own_log_odds(blocks_.own(place.slot), masks_.own(place.slot).observed);
+    places.push_back(place);
+  }
+  const LogOddsKernels& kernels = log_odds_kernels(simd);
+  std::vector<Outcome> outcomes(places.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, outcomes.size(), 64),
+                    [&](const auto& range) {
+                      for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                        const Place& place = places[i];
+                        outcomes[i] = place.update != nullptr ? apply(*place.update, place, kernels)
+                                                              : apply_all_free(place, kernels);
+                      }
+                    });
+  for (std::size_t i = 0; i < outcomes.size(); ++i) count(outcomes[i], places[i].slot, result);
+  observed_voxels_ += result.newly_known;
+  std::sort(result.changed.begin(), result.changed.end());
+  return result;
+}
+
+}  // namespace canopeer
