@@ -432,6 +432,7 @@ BENCHMARK(distance_field_query);
 int main(int argc, char** argv) {
   { const canopeer::Threads one(1); }  // and one thread it stays
   canopeer::fused_map();               // the scene is made before anything is timed
+  canopeer::fused_octree();
   const auto row = [](const char* name, const char* ours, const char* baseline, const char* unit) {
     canopeer::BenchRow r;
     r.name = name;

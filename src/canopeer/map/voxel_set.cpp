@@ -13,6 +13,13 @@ VoxelSet::VoxelSet(std::vector<Block> blocks) : blocks_(std::move(blocks)) {
   for (const Block& block : blocks_) count_ += block.mask.count();
 }
 
+VoxelSet VoxelSet::of_sorted(std::vector<Block> blocks) {
+  VoxelSet set;
+  set.blocks_ = std::move(blocks);
+  for (const Block& block : set.blocks_) set.count_ += block.mask.count();
+  return set;
+}
+
 bool VoxelSet::contains(const VoxelIndex& voxel) const {
   const BlockKey key = block_key(voxel);
   const auto it = std::lower_bound(blocks_.begin(), blocks_.end(), key,

@@ -20,6 +20,8 @@ class VoxelSet {
   VoxelSet() = default;
   /// Blocks with empty masks are dropped; no key twice, any order.
   explicit VoxelSet(std::vector<Block> blocks);
+  /// The same of blocks sorted by key, none of them empty.
+  static VoxelSet of_sorted(std::vector<Block> blocks);
 
   [[nodiscard]] std::int64_t count() const { return count_; }
   [[nodiscard]] bool empty() const { return count_ == 0; }

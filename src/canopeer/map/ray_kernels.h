@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "canopeer/geometry/voxel_ray.h"
+#include "canopeer/map/block.h"
+#include "canopeer/map/simd_level.h"
+
+namespace canopeer {
+
+/// A voxel of a window in one word: 21 bits an axis, x lowest, from the window's first voxel, which
+/// is the first of its block.
+using PackedVoxel = std::int64_t;
+
+namespace packed_voxel {
+inline constexpr int kFieldBits = 21;
+inline constexpr PackedVoxel kOneOf[3] = {1, PackedVoxel{1} << kFieldBits,
+                                          PackedVoxel{1} << 2 * kFieldBits};
+inline constexpr PackedVoxel kInBlock = (kBlockSide - 1) * (kOneOf[0] + kOneOf[1] + kOneOf[2]);
+
+/// Index of the voxel's block along an axis.
+inline int block_along(PackedVoxel p, int axis) {
+  return static_cast<int>(p >> (axis * kFieldBits + kBlockShift) &
+                          ((1 << (kFieldBits - kBlockShift)) - 1));
+}
+}  // namespace packed_voxel
+
+/// Eight voxel walks side by side.
+struct RayLanes {
+  static constexpr std::size_t kCount = 8;
+  using Lanes = std::array<std::int64_t, kCount>;
+  /// Room for eight items of a step.
+  template <typename T>
+  struct alignas(64) Row {
+    std::array<T, 64 / sizeof(T)> items;
+  };
+  alignas(64) Lanes at;  ///< packed
+  alignas(64) std::array<Lanes, 3> t;
+  alignas(64) std::array<Lanes, 3> dt;
+  alignas(64) std::array<Lanes, 3> move;  ///< packed
+
+  /// `corner`: the window's first voxel.
+  void set(std::size_t lane, const VoxelWalk& walk, const VoxelIndex& corner) {
+    const VoxelIndex start = walk.first - corner;
+    at[lane] = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      at[lane] += start[axis] * packed_voxel::kOneOf[axis];
+      t[a][lane] = walk.t_next[axis];
+      dt[a][lane] = walk.t_delta[axis];
+      move[a][lane] = walk.step[axis] * packed_voxel::kOneOf[axis];
+    }
+  }
+};
+
+/// Where eight walks go: item step · 8 + lane, both from addresses that are multiples of 64.
+struct RaySteps {
+  PackedVoxel* at = nullptr;
+  std::uint16_t* offset = nullptr;  ///< among the voxels of its block, x fastest
+  /// Per step, bit lane: the voxel lies in another block than the one before; all for step 0.
+  std::uint8_t* enters = nullptr;
+};
+
+/// Walks as walk_voxels() does, `voxels` voxels in all lanes; a walk shorter than that goes on past
+/// its end. At most 64 times the steps of the shortest one, or times overflow.
+using WalkRays = void (*)(const RayLanes& rays, std::size_t voxels, const RaySteps& out);
+
+/// `level` must be one the machine has.
+WalkRays walk_rays_kernel(SimdLevel level);
+
+}  // namespace canopeer
