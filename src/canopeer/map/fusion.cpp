@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "canopeer/geometry/voxel_ray.h"
 #include "canopeer/map/block_directory.h"
+#include "canopeer/map/crossed_space.h"
 #include "canopeer/map/end_points.h"
 #include "canopeer/map/frame_kernels.h"
 #include "canopeer/map/free_space.h"
@@ -95,38 +95,6 @@ FuseResult apply(VoxelMap& map, const EndPoints& ends, const FreeSpace& free, bo
   return update.apply(map, simd);
 }
 
-FreeSpace walk_rays(const RgbdFrame& frame, const DepthImage& free_depth, double resolution_m) {
-  BlockDirectory directory;
-  FreeSpace free;
-  VoxelMask* mask = nullptr;  // of the block a ray is in
-  VoxelIndex block = VoxelIndex::Zero();
-  const Vec3 origin = frame.T_world_camera.translation();
-  for (int v = 0; v < free_depth.height(); ++v) {
-    for (int u = 0; u < free_depth.width(); ++u) {
-      const double depth = static_cast<double>(free_depth.at(u, v));
-      if (depth <= 0.0) continue;
-      const Vec3 end = frame.T_world_camera * (depth * frame.intrinsics.ray(u, v));
-      const VoxelIndex last = voxel_at(end, resolution_m);
-      walk_voxels(origin, end, resolution_m, [&](const VoxelIndex& voxel) {
-        if (voxel == last) return false;
-        const int beyond =
-            ((voxel.x() ^ block.x()) | (voxel.y() ^ block.y()) | (voxel.z() ^ block.z())) >>
-            kBlockShift;
-        if (beyond != 0 || mask == nullptr) {
-          block = voxel;
-          const BlockKey key = block_key(voxel);
-          const std::uint32_t slot = directory.find_or_add(key);
-          if (slot == free.parts.size()) free.parts.push_back({key, {}});
-          mask = &free.parts[slot].free;
-        }
-        mask->set(voxel);
-        return true;
-      });
-    }
-  }
-  return free;
-}
-
 }  // namespace
 
 FuseResult fuse(VoxelMap& map, const RgbdFrame& frame, const Mask& roi,
@@ -140,9 +108,9 @@ FuseResult fuse(VoxelMap& map, const RgbdFrame& frame, const Mask& roi,
 
 FuseResult fuse_exact(VoxelMap& map, const RgbdFrame& frame, const Mask& roi,
                       const FusionOptions& options) {
-  const EndPoints ends =
-      find_end_points(frame, roi, options, map.resolution_m(), frame_kernels(options.simd));
-  const FreeSpace free = walk_rays(frame, ends.free_depth, map.resolution_m());
+  const FrameKernels& kernels = frame_kernels(options.simd);
+  const EndPoints ends = find_end_points(frame, roi, options, map.resolution_m(), kernels);
+  const FreeSpace free = find_crossed_space(frame, ends.free_depth, map.resolution_m(), kernels);
   return apply(map, ends, free, !roi.empty(), options.simd);
 }
 
