@@ -6,7 +6,7 @@
 
 #include "canopeer/geometry/voxel_ray.h"
 #include "canopeer/map/block.h"
-#include "canopeer/map/simd_level.h"
+#include "canopeer/base/simd_level.h"
 
 namespace canopeer {
 
