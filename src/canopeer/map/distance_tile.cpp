@@ -29,6 +29,17 @@ using TileRow = std::int16_t __attribute__((vector_size(kSide * sizeof(std::int1
     (best) = candidate < (best) ? candidate : (best);  \
   } while (false)
 
+// The same with two rows that are as far away.
+#define CANOPEER_RELAX_BOTH(best, one, other, step)              \
+  do {                                                           \
+    TileRow candidate, candidate2;                               \
+    std::memcpy(&candidate, (one), sizeof candidate);            \
+    std::memcpy(&candidate2, (other), sizeof candidate2);        \
+    candidate = candidate2 < candidate ? candidate2 : candidate; \
+    candidate += static_cast<std::int16_t>(step);                \
+    (best) = candidate < (best) ? candidate : (best);            \
+  } while (false)
+
 // Some lane is larger than `limit`.
 CANOPEER_KERNEL_BODY bool any_above(const TileRow& row, std::int16_t limit) {
   const TileRow above = row > limit;
@@ -57,8 +68,11 @@ CANOPEER_KERNEL_BODY void relax_rows_body(const std::int16_t* rows, const std::u
       if ((used[after] | used[before]) == 0) continue;
       any = 1;
       if (k > 1 && !any_above(best, step)) break;
-      if (used[after] != 0) CANOPEER_RELAX(best, rows + after * kSide, step);
-      if (used[before] != 0) CANOPEER_RELAX(best, rows + before * kSide, step);
+      if (used[after] != 0 && used[before] != 0) {
+        CANOPEER_RELAX_BOTH(best, rows + after * kSide, rows + before * kSide, step);
+      } else {
+        CANOPEER_RELAX(best, rows + (used[after] != 0 ? after : before) * kSide, step);
+      }
     }
     std::memcpy(out + j * out_stride * kSide, &best, sizeof best);
     if (out_used != nullptr) out_used[j * out_stride] = any;
@@ -71,8 +85,7 @@ CANOPEER_KERNEL_BODY void relax_row_body(const std::int16_t* padded, int pad, in
   for (int k = 0; k <= reach; ++k) {
     const std::int16_t step = gap2(k);
     if (k > 1 && !any_above(best, step)) break;
-    CANOPEER_RELAX(best, padded + (pad + k), step);
-    CANOPEER_RELAX(best, padded + (pad - k), step);
+    CANOPEER_RELAX_BOTH(best, padded + (pad + k), padded + (pad - k), step);
   }
   std::memcpy(out, &best, sizeof best);
 }
