@@ -27,9 +27,11 @@ bool VoxelSet::contains(const VoxelIndex& voxel) const {
   return it != blocks_.end() && it->key == key && it->mask.test(voxel);
 }
 
-// In place: blocks both have take the other's bits; room for the rest is made from the back.
+// In place: blocks both have take the other's bits; room for the rest is made from the back. Only
+// what both have is counted.
 void VoxelSet::merge(const VoxelSet& other) {
   std::size_t missing = 0;
+  count_ += other.count_;
   std::size_t i = 0;
   for (const Block& block : other.blocks_) {
     while (i < blocks_.size() && blocks_[i].key < block.key) ++i;
@@ -37,9 +39,10 @@ void VoxelSet::merge(const VoxelSet& other) {
       ++missing;
       continue;
     }
-    count_ -= blocks_[i].mask.count();
+    VoxelMask common = block.mask;
+    common &= blocks_[i].mask;
+    count_ -= common.count();
     blocks_[i].mask |= block.mask;
-    count_ += blocks_[i].mask.count();
   }
   if (missing == 0) return;
   std::size_t a = blocks_.size();
@@ -52,7 +55,6 @@ void VoxelSet::merge(const VoxelSet& other) {
       blocks_[--out] = blocks_[--a];
     } else {
       blocks_[--out] = other.blocks_[--b];
-      count_ += blocks_[out].mask.count();
     }
   }
 }
