@@ -55,6 +55,8 @@ VoxelMap deep_copy(const VoxelMap& map) {
 }
 
 TEST(MapSnapshots, ACopyNeverChangesAndTheOriginalGoesOnAsIfThereWereNone) {
+  // TBB's own threads are not instrumented: their hand-overs would look like races.
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Rng rng(seed, "frames");
     Rng same(seed, "frames");
@@ -80,8 +82,7 @@ TEST(MapSnapshots, ThereIsNoneBeforeTheFirst) { EXPECT_EQ(MapSnapshots().latest(
 // that changed under a reader would not add up.
 TEST(MapSnapshots, ReadersSeeWholeFramesWhileTheNextOneIsFused) {
   constexpr int kFrames = 40;
-  // TBB's own threads are not instrumented: their hand-overs would look like races.
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);  // as above
   MapSnapshots snapshots;
   std::atomic<bool> done = false;
   std::atomic<int> reads = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 
 #include "ball_scene.h"
@@ -9,6 +10,7 @@
 #include "canopeer/map/frame_kernels.h"
 #include "canopeer/map/frontier_masks.h"
 #include "canopeer/map/log_odds_kernels.h"
+#include "canopeer/map/ray_kernels.h"
 #include "same_map.h"
 
 namespace canopeer {
@@ -197,6 +199,54 @@ TEST(SimdKernels, CubesAreClassifiedAsTheirVoxelsAre) {
     }
     // Rounding decides where a centre falls on the border of two pixels.
     EXPECT_LE(border, compared / 1000) << "seed " << seed;
+  }
+}
+
+// Walks from lattice points too, where ties decide, and walks of one voxel.
+TEST(SimdKernels, RaysCrossTheVoxelsAPlainWalkerCrosses) {
+  constexpr std::size_t kVoxels = 120, kItems = kVoxels * RayLanes::kCount;
+  Rng rng(6, "rays");
+  const VoxelIndex corner = VoxelIndex::Constant(-160);
+  for (int round = 0; round < 100; ++round) {
+    const auto point = [&] {
+      const auto place = [&] {
+        const double p = rng.uniform(-0.3, 0.3);
+        return round % 2 == 0 ? std::round(100.0 * p) / 100.0 : p;
+      };
+      return Vec3(place(), place(), place());
+    };
+    RayLanes lanes;
+    std::vector<std::vector<VoxelIndex>> expected(RayLanes::kCount);
+    for (std::size_t lane = 0; lane < RayLanes::kCount; ++lane) {
+      const Vec3 from = point(), to = round % 10 == 0 ? from : point();
+      lanes.set(lane, VoxelWalk(from, to, 0.01), corner);
+      walk_voxels(from, to, 0.01, [&](const VoxelIndex& v) {
+        expected[lane].push_back(v);
+        return true;
+      });
+    }
+    for (const SimdLevel level : kSimdLevels) {
+      if (level > best_simd_level()) continue;
+      std::vector<RayLanes::Row<PackedVoxel>> at(kVoxels);
+      std::vector<RayLanes::Row<std::uint16_t>> offset(kItems / 32 + 1);
+      std::vector<std::uint8_t> enters(kVoxels);
+      walk_rays_kernel(level)(
+          lanes, kVoxels, {at.front().items.data(), offset.front().items.data(), enters.data()});
+      for (std::size_t lane = 0; lane < RayLanes::kCount; ++lane) {
+        ASSERT_LE(expected[lane].size(), kVoxels * 2);
+        for (std::size_t i = 0; i < std::min(kVoxels, expected[lane].size()); ++i) {
+          const VoxelIndex v = expected[lane][i] - corner;
+          const PackedVoxel packed = at[i].items[lane];
+          ASSERT_EQ(packed,
+                    v.x() + v.y() * packed_voxel::kOneOf[1] + v.z() * packed_voxel::kOneOf[2])
+              << simd_level_name(level);
+          ASSERT_EQ(offset.front().items.data()[i * RayLanes::kCount + lane], voxel_offset(v));
+          const bool enters_block =
+              i == 0 || block_key(expected[lane][i - 1]) != block_key(expected[lane][i]);
+          ASSERT_EQ((enters[i] >> lane & 1) != 0, enters_block) << simd_level_name(level);
+        }
+      }
+    }
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -180,6 +182,53 @@ TEST(VoxelMap, VisitsOccupiedAndRoiVoxelsOfABoxInOrder) {
   EXPECT_TRUE(cloud.points[0].isApprox(Eigen::Vector3f(-0.005F, 0.005F, 0.005F)));
   EXPECT_EQ(cloud.colors[0], MapCloudOptions{}.roi);
   EXPECT_EQ(cloud.colors[1], MapCloudOptions{}.other);
+}
+
+// Blocks whose observed voxels agree keep one value: nothing of that is to be seen.
+TEST(VoxelMap, IsWhatSteppingVoxelByVoxelGives) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    Rng rng(seed, "updates");
+    VoxelMapOptions options;
+    if (seed % 3 == 0) options.occupied_threshold = 0.35;  // one miss leaves a voxel occupied
+    VoxelMap map(options);
+    const auto steps_of = [](double p) { return std::lround(2048.0 * log_odds(p)); };
+    const BlockKey key = pack_block(-1, 2, 0);
+    std::array<long, kBlockVoxels> expected{};
+    VoxelMask observed, seen;
+    for (std::uint64_t& slice : seen.slices) slice = rng.bits();  // a view that comes back
+    for (int frame = 0; frame < 20; ++frame) {
+      BlockUpdate update;
+      update.key = key;
+      update.miss = rng.chance(0.3) ? VoxelMask::all() -= seen : seen;
+      if (rng.chance(0.1)) update.miss.slices[rng.index(8)] &= rng.bits();
+      if (rng.chance(0.1)) update.hit.slices[rng.index(8)] = rng.bits() & rng.bits();
+      update.miss -= update.hit;
+      if (rng.chance(0.2)) {
+        update.hit = {};
+        update.miss = VoxelMask::all();
+        map.apply({}, {{key}});
+      } else {
+        map.apply({{update}});
+      }
+      observed |= update.hit;
+      observed |= update.miss;
+      for_each_voxel(key, VoxelMask::all(), [&](const VoxelIndex& v) {
+        long& value = expected[voxel_offset(v)];
+        const bool hit = update.hit.test(v), miss = update.miss.test(v);
+        if (hit) value += steps_of(options.hit_probability);
+        if (miss) value += steps_of(options.miss_probability);
+        value = std::clamp(value, steps_of(options.clamp_min), steps_of(options.clamp_max));
+        ASSERT_EQ(map.occupancy_log_odds(v), static_cast<double>(value) / 2048.0)
+            << "seed " << seed << ", frame " << frame;
+        const bool occupied = value >= steps_of(options.occupied_threshold);
+        ASSERT_EQ(map.occupancy(v), !observed.test(v) ? Occupancy::unknown
+                                    : occupied        ? Occupancy::occupied
+                                                      : Occupancy::free);
+      });
+      ASSERT_EQ(map.observed_voxels(), observed.count());
+      ASSERT_EQ(map.occupied_voxels(), map.block(key)->occupied.count());
+    }
+  }
 }
 
 }  // namespace
