@@ -8,9 +8,14 @@ namespace {
 
 constexpr double kCauchySds = 3.0;  // residuals beyond so many standard deviations count little
 constexpr double kTinyM = 1e-7;     // keeps logarithms finite on the body's planes of symmetry
-constexpr int kChunk = 64;          // points at a time: all their intermediate values fit the cache
+constexpr int kChunk = 32;          // points at a time: all their intermediate values fit the cache
 
 using Chunk = Eigen::Array<double, kChunk, 1>;
+/// Of a chunk's points the derivatives, one column each parameter, the residuals and the radial
+/// distances, m.
+using Rows = Eigen::Matrix<double, kChunk, kFitParameters + 2>;
+constexpr int kResidual = kFitParameters;
+constexpr int kDistance = kFitParameters + 1;
 using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, kFitParameters, Eigen::RowMajor>;
 using Eigen::Matrix3d;
 
@@ -79,16 +84,48 @@ SuperellipsoidCost::SuperellipsoidCost(std::span<const SurfacePoint> surface,
 
 void SuperellipsoidCost::evaluate(const double* parameters, double* r, double* jacobian) const {
   const FitParameters p = Eigen::Map<const FitParameters>(parameters);
-  evaluate_points(p, r, jacobian);
-  const Eigen::Index n = x_.size();
-  evaluate_prior(p, r + n, jacobian == nullptr ? nullptr : jacobian + n * kFitParameters);
+  const Eigen::Index all = x_.size();
+  if (jacobian == nullptr) {
+    for_each_chunk<false>(p, [&](Eigen::Index from, Eigen::Index n, const Rows& rows) {
+      Eigen::Map<Eigen::VectorXd>(r + from, n) = rows.col(kResidual).head(n);
+    });
+    evaluate_prior(p, r + all, nullptr);
+    return;
+  }
+  for_each_chunk<true>(p, [&](Eigen::Index from, Eigen::Index n, const Rows& rows) {
+    Eigen::Map<Eigen::VectorXd>(r + from, n) = rows.col(kResidual).head(n);
+    Eigen::Map<Jacobian>(jacobian + from * kFitParameters, n, kFitParameters) =
+        rows.topLeftCorner(n, kFitParameters);
+  });
+  evaluate_prior(p, r + all, jacobian + all * kFitParameters);
+}
+
+NormalEquations SuperellipsoidCost::normal_equations(const FitParameters& p) const {
+  NormalEquations sum;
+  auto& products = sum.products;
+  products.setZero();
+  for_each_chunk<true>(p, [&](Eigen::Index, Eigen::Index n, Rows& rows) {
+    if (n < kChunk) rows.bottomRows(kChunk - n).setZero();
+    for (int i = 0; i <= kResidual; ++i) {
+      for (int k = 0; k <= i; ++k) products(k, i) += rows.col(k).dot(rows.col(i));
+    }
+    sum.distances_m2 += rows.col(kDistance).cwiseAbs().cwiseMin(kClippedDistanceM).squaredNorm();
+  });
+  Eigen::Matrix<double, kPriorResiduals, 1> r;
+  Eigen::Matrix<double, kPriorResiduals, kFitParameters, Eigen::RowMajor> j;
+  evaluate_prior(p, r.data(), j.data());
+  Eigen::Matrix<double, kPriorResiduals, kFitParameters + 1> prior;
+  prior << j, r;
+  products.noalias() += prior.transpose().lazyProduct(prior);
+  products.triangularView<Eigen::StrictlyLower>() = products.transpose();
+  return sum;
 }
 
 /// The radial distance d = m (1 − 1/G), m the distance from the centre, G = F^(e1/2) the gauge, and
 /// by the chain rule through log G: each of its derivatives is a share of the terms of F. Points
 /// are taken in chunks, so that logarithms and exponentials run over arrays.
-void SuperellipsoidCost::evaluate_points(const FitParameters& p, double* r_out,
-                                         double* jacobian_out) const {
+template <bool kDerivatives, typename Take>
+void SuperellipsoidCost::for_each_chunk(const FitParameters& p, const Take& take) const {
   const double e1 = p[3];
   const double e2 = p[4];
   const Matrix3d rotation = exp_of(p.tail<3>()) * reference_;
@@ -127,14 +164,22 @@ void SuperellipsoidCost::evaluate_points(const FitParameters& p, double* r_out,
     const Chunk log_f = f.log();
     const Chunk inverse_gauge = (-0.5 * e1 * log_f).exp();
     // The Cauchy loss as a residual: ½ r² = ½ c² log(1 + (d/sd)²/c²) (Triggs et al. 2000).
-    const Chunk s = m * (1.0 - inverse_gauge) * per_sd;
+    const Chunk distance = m * (1.0 - inverse_gauge);
+    const Chunk s = distance * per_sd;
     const Chunk t = (s / kCauchySds).square();
     const Chunk small = t - 0.5 * t.square() + t * t.square() / 3.0;
-    const Chunk log_1_t = (t < 1e-4).select(small, (1.0 + t).log());
+    const Chunk log_1_plus_t = (1.0 + t).log();  // by itself: within a selection it is no vector
+    const Chunk log_1_t = (t < 1e-4).select(small, log_1_plus_t);
     const Chunk size = (kCauchySds * kCauchySds * log_1_t).sqrt();
     const Chunk robust = (s < 0.0).select(-size, size);
-    Eigen::Map<Eigen::ArrayXd>(r_out + from, n) = weight_ * robust.head(n);
-    if (jacobian_out == nullptr) continue;
+    Rows rows;
+    auto j = rows.array();
+    j.col(kResidual) = weight_ * robust;
+    j.col(kDistance) = distance;
+    if constexpr (!kDerivatives) {
+      take(from, n, rows);
+      continue;
+    }
 
     // dr/ds = s / (r (1 + t)), 1 at 0.
     const Chunk slope = weight_ * per_sd * (size < 1e-9).select(1.0, s / ((1.0 + t) * robust));
@@ -143,7 +188,6 @@ void SuperellipsoidCost::evaluate_points(const FitParameters& p, double* r_out,
     const Chunk share_x = share_u * power_x / across;
     const Chunk share_y = share_u * power_y / across;
     const Chunk by_log_gauge = slope * m * inverse_gauge;
-    Eigen::Array<double, kChunk, kFitParameters> j;
     j.col(0) = by_log_gauge * share_x / -p[0];
     j.col(1) = by_log_gauge * share_y / -p[1];
     j.col(2) = by_log_gauge * share_w / -p[2];
@@ -166,8 +210,7 @@ void SuperellipsoidCost::evaluate_points(const FitParameters& p, double* r_out,
       j.col(5 + k) = -(rotation(k, 0) * gx + rotation(k, 1) * gy + rotation(k, 2) * gz);
       j.col(8 + k) = turn(k, 0) * cx + turn(k, 1) * cy + turn(k, 2) * cz;
     }
-    Eigen::Map<Jacobian>(jacobian_out + from * kFitParameters, n, kFitParameters) =
-        j.topRows(n).matrix();
+    take(from, n, rows);
   }
 }
 

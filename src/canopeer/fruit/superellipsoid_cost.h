@@ -17,6 +17,16 @@ using FitParameters = Eigen::Matrix<double, kFitParameters, 1>;
 /// w = 0: the reference is the body's own orientation.
 [[nodiscard]] FitParameters parameters_of(const Superellipsoid& body);
 
+/// What a step and a report need of all residuals r and their derivatives J.
+struct NormalEquations {
+  /// [J r]ᵀ[J r]: JᵀJ and Jᵀr of the normal equations, and rᵀr in the last place.
+  Eigen::Matrix<double, kFitParameters + 1, kFitParameters + 1> products;
+  /// Σ d² over the points, d their radial distances, each clipped at kClippedDistanceM.
+  double distances_m2 = 0.0;
+};
+/// Of the reported spread: one stray point is not all.
+inline constexpr double kClippedDistanceM = 0.01;
+
 /// What a fit minimises, with its derivative: ½ |r|², r = a robust residual for every point, then
 /// those of the prior. Everything is in standard deviations, so ½ |r|² is minus the log posterior.
 class SuperellipsoidCost {
@@ -27,13 +37,19 @@ class SuperellipsoidCost {
                      const Vec3& centre_vote, const Eigen::Matrix3d& reference);
 
   static constexpr int kPriorResiduals = 11;
-  [[nodiscard]] int residuals() const { return static_cast<int>(x_.size()) + kPriorResiduals; }
+  [[nodiscard]] int points() const { return static_cast<int>(x_.size()); }
+  [[nodiscard]] int residuals() const { return points() + kPriorResiduals; }
 
   /// r of length residuals(); `jacobian` row-major residuals() × 11, null: not wanted.
   void evaluate(const double* parameters, double* r, double* jacobian) const;
 
+  /// The sums over what evaluate() gives, without the thousands of numbers in between.
+  [[nodiscard]] NormalEquations normal_equations(const FitParameters& p) const;
+
  private:
-  void evaluate_points(const FitParameters& p, double* r, double* jacobian) const;
+  /// Calls take(first point, number of points, their rows) chunk by chunk.
+  template <bool kDerivatives, typename Take>
+  void for_each_chunk(const FitParameters& p, const Take& take) const;
   void evaluate_prior(const FitParameters& p, double* r, double* jacobian) const;
 
   Eigen::ArrayXd x_, y_, z_;  // points, world

@@ -14,23 +14,68 @@
 namespace canopeer {
 namespace {
 
-constexpr double kClippedDistance_m = 0.01;  // of the reported spread: one stray point is not all
-
-/// Our cost as Ceres sees one: all points in one block.
+/// Our cost as Ceres sees one: twelve residuals in place of one for each point and prior. The
+/// factor U of [J r]ᵀ[J r] = UᵀU has the same JᵀJ, Jᵀr and rᵀr as the whole [J r], which is all
+/// that a step depends on (Golub & Van Loan, Matrix Computations, 5.3: least squares by the normal
+/// equations, as DENSE_NORMAL_CHOLESKY solves them anyway). So Ceres handles 12 × 11 numbers, not
+/// thousands. It asks for the cost of a step first and for the derivatives there when it takes the
+/// step, which it mostly does: both share their logarithms, so both are computed at once and kept.
 class CeresCost final : public ceres::CostFunction {
  public:
+  static constexpr int kRows = kFitParameters + 1;
+  using Square = Eigen::Matrix<double, kRows, kRows>;
+
   explicit CeresCost(const SuperellipsoidCost& cost) : cost_(cost) {
-    set_num_residuals(cost.residuals());
+    set_num_residuals(kRows);
     mutable_parameter_block_sizes()->push_back(kFitParameters);
   }
   bool Evaluate(const double* const* parameters, double* residuals,
                 double** jacobians) const override {
-    cost_.evaluate(parameters[0], residuals, jacobians == nullptr ? nullptr : jacobians[0]);
+    const FitParameters p = Eigen::Map<const FitParameters>(parameters[0]);
+    factor_at(p);
+    Eigen::Map<Eigen::Matrix<double, kRows, 1>> r(residuals);
+    r = factor_.col(kFitParameters);
+    if (jacobians != nullptr && jacobians[0] != nullptr) {
+      Eigen::Map<Eigen::Matrix<double, kRows, kFitParameters, Eigen::RowMajor>> j(jacobians[0]);
+      j = factor_.leftCols<kFitParameters>();
+    }
     return true;
   }
 
+  /// At p, most often known from the last step there.
+  [[nodiscard]] const NormalEquations& equations_at(const FitParameters& p) const {
+    factor_at(p);
+    return equations_;
+  }
+
  private:
+  void factor_at(const FitParameters& p) const {
+    if (known_ && p == at_) return;
+    equations_ = cost_.normal_equations(p);
+    factor_ = factor_of(equations_.products);
+    at_ = p;
+    known_ = true;
+  }
+
+  /// Upper triangular; the last pivot, what is left of rᵀr, may be nothing but rounding.
+  static Square factor_of(const Square& a) {
+    Square u = Square::Zero();
+    for (int i = 0; i < kRows; ++i) {
+      const double pivot = a(i, i) - u.col(i).head(i).squaredNorm();
+      u(i, i) = std::sqrt(std::max(0.0, pivot));
+      if (!(u(i, i) > 0.0)) continue;
+      for (int k = i + 1; k < kRows; ++k) {
+        u(i, k) = (a(i, k) - u.col(i).head(i).dot(u.col(k).head(i))) / u(i, i);
+      }
+    }
+    return u;
+  }
+
   const SuperellipsoidCost& cost_;
+  mutable FitParameters at_;
+  mutable NormalEquations equations_;  // at at_
+  mutable Square factor_;
+  mutable bool known_ = false;
 };
 
 ceres::Solver::Options solver_options(const FitOptions& options) {
@@ -48,13 +93,14 @@ ceres::Solver::Options solver_options(const FitOptions& options) {
 
 struct Solution {
   FitParameters parameters;
+  NormalEquations equations;  // there
   double cost = std::numeric_limits<double>::infinity();
   bool converged = false;
 };
 
 Solution solve(const SuperellipsoidCost& cost, const FitParameters& start,
                const ceres::Solver::Options& options) {
-  Solution solution{start};
+  Solution solution{start, {}};
   ceres::Problem::Options ownership;
   ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ownership.disable_all_safety_checks = true;
@@ -69,6 +115,7 @@ Solution solve(const SuperellipsoidCost& cost, const FitParameters& start,
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   solution.cost = summary.IsSolutionUsable() ? summary.final_cost : solution.cost;
+  solution.equations = function.equations_at(solution.parameters);
   solution.converged = summary.termination_type == ceres::CONVERGENCE;
   return solution;
 }
@@ -80,15 +127,6 @@ std::vector<SurfacePoint> thinned(std::span<const SurfacePoint> surface, int cou
   if (surface.size() <= most) return {surface.begin(), surface.end()};
   for (std::size_t i = 0; i < most; ++i) chosen.push_back(surface[i * surface.size() / most]);
   return chosen;
-}
-
-double clipped_rms(std::span<const SurfacePoint> surface, const Superellipsoid& body) {
-  double sum = 0.0;
-  for (const SurfacePoint& s : surface) {
-    const double d = std::min(std::abs(body.radial_distance(s.point)), kClippedDistance_m);
-    sum += d * d;
-  }
-  return std::sqrt(sum / static_cast<double>(surface.size()));
 }
 
 /// Of the volume by the parameters; by the exponents as differences.
@@ -107,12 +145,9 @@ FitParameters volume_gradient(const Superellipsoid& body) {
 }
 
 /// Covariance (JᵀJ)⁻¹: residuals are in standard deviations, the prior is among them.
-void set_errors(const SuperellipsoidCost& cost, const FitParameters& p, SuperellipsoidFit& fit) {
-  using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, kFitParameters, Eigen::RowMajor>;
-  Jacobian j(cost.residuals(), kFitParameters);
-  Eigen::VectorXd r(cost.residuals());
-  cost.evaluate(p.data(), r.data(), j.data());
-  const Eigen::Matrix<double, kFitParameters, kFitParameters> h = j.transpose() * j;
+void set_errors(const NormalEquations& equations, SuperellipsoidFit& fit) {
+  const Eigen::Matrix<double, kFitParameters, kFitParameters> h =
+      equations.products.topLeftCorner<kFitParameters, kFitParameters>();
   fit.covariance = h.ldlt().solve(decltype(fit.covariance)::Identity().eval());
   fit.centre_sd_m = fit.covariance.diagonal().segment<3>(5).cwiseMax(0.0).cwiseSqrt();
   const FitParameters g = volume_gradient(fit.body);
@@ -152,11 +187,11 @@ SuperellipsoidFit fit_superellipsoid(std::span<const SurfacePoint> surface,
     best = solve(cost, best.parameters, solver);
   SuperellipsoidFit fit;
   fit.body = body_of(best.parameters, from->T_world_body.linear());
-  fit.rms_m = clipped_rms(fine, fit.body);
+  fit.rms_m = std::sqrt(best.equations.distances_m2 / static_cast<double>(cost.points()));
   fit.cost = best.cost;
   fit.starts = static_cast<int>(starts.size());
   fit.converged = best.converged;
-  set_errors(cost, best.parameters, fit);
+  set_errors(best.equations, fit);
   return fit;
 }
 

@@ -10,7 +10,7 @@ namespace canopeer {
 struct FitOptions {
   ShapePrior prior;
   /// Starts are tried on so many of the points; the best goes on with all that `max_points` allows.
-  int coarse_points = 96;
+  int coarse_points = 64;
   int coarse_iterations = 6;  ///< each start gets so many to show what it is worth
   int max_points = 1000;      ///< more are thinned evenly
   int max_iterations = 30;
