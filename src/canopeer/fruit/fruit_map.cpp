@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
+#include <tuple>
 #include <unordered_map>
 
 #include "canopeer/base/check.h"
@@ -32,9 +32,18 @@ struct KnownFruit {
 /// Surface of the blocks that hang together, and which block each point comes from.
 struct Patch {
   std::vector<int> blocks;  ///< ascending
+  bool known = false;       ///< some of it belongs to a fruit already
+  int since = 0;            ///< the update its oldest change waits since
   std::vector<SurfacePoint> surface;
   std::vector<const SurfaceVertex*> vertex;
   std::vector<int> block;
+};
+
+/// A frame and where it saw fruit.
+struct Sight {
+  double time_s = 0.0;
+  std::vector<int> blocks;  ///< ascending
+  int update = 0;           ///< the first one after it
 };
 
 bool share_element(const std::vector<int>& a, const std::vector<int>& b) {
@@ -74,31 +83,46 @@ struct FruitMap::State {
   std::vector<FruitEstimate> candidates;  // all
   std::vector<IdChange> id_changes;
   int fits = 0;
-  // What the frames since the last update saw: blocks of each and its time.
-  std::vector<std::pair<double, std::vector<int>>> seen;
+  // Frames since the last update, and before it while what they saw may still be waiting.
+  std::vector<Sight> sights;
+  std::vector<char> fruit_block;  // by block: whether any of its surface counts
+  int updates = 0;
+  static constexpr int kNotWaiting = -1;
+  std::vector<int> waits_since;  // by block: the update its oldest change was there for
 
   [[nodiscard]] bool counts(const SurfaceVertex& v) const {
     return v.fruit_share >= options.min_fruit_share;
   }
+  std::vector<int> update_surface();
   [[nodiscard]] std::vector<Patch> patches_around(const std::vector<int>& changed) const;
-  [[nodiscard]] Patch without_odd(const Patch& patch) const;
+  void drop_odd_pieces(Patch& patch) const;
   void solve(const Patch& patch, std::vector<KnownFruit>& found) const;
   void measure(KnownFruit& fruit, const KnownFruit* before, const std::vector<int>& changed,
                bool anew);
-  void update(const std::vector<int>& changed, bool anew);
+  std::vector<Patch> take_patches(const std::vector<int>& changed, bool all,
+                                  std::vector<int>& concerned);
+  void update(const std::vector<int>& new_changes, bool all);
   void count_views();
   void hand_out();
 };
+
+/// The numbers of the blocks whose surface is another now.
+std::vector<int> FruitMap::State::update_surface() {
+  std::vector<int> changed = surface.update();
+  fruit_block.resize(surface.tsdf().blocks().size(), 0);
+  for (const int block : changed) {
+    const auto& vertices = surface.vertices(block);
+    fruit_block[block] = std::any_of(vertices.begin(), vertices.end(),
+                                     [&](const SurfaceVertex& v) { return counts(v); });
+  }
+  return changed;
+}
 
 /// Blocks with fruit surface that touch, from the changed ones on; each patch once.
 std::vector<Patch> FruitMap::State::patches_around(const std::vector<int>& changed) const {
   const FruitTsdf& tsdf = surface.tsdf();
   std::vector<char> reached(tsdf.blocks().size(), 0);
-  const auto has_fruit = [&](int block) {
-    const auto& vertices = surface.vertices(block);
-    return std::any_of(vertices.begin(), vertices.end(),
-                       [&](const SurfaceVertex& v) { return counts(v); });
-  };
+  const auto has_fruit = [&](int block) { return fruit_block[block] != 0; };
   // A changed block may have lost its surface; its neighbours then still want another look.
   std::vector<int> starts;
   for (const int block : changed) {
@@ -137,18 +161,21 @@ std::vector<Patch> FruitMap::State::patches_around(const std::vector<int>& chang
   return patches;
 }
 
-Patch FruitMap::State::without_odd(const Patch& patch) const {
+/// Takes the points of pieces out that cannot be fruit.
+void FruitMap::State::drop_odd_pieces(Patch& patch) const {
   const std::vector<int> piece = euclidean_clusters(patch.surface, options.cluster_tolerance_m);
   const std::vector<char> keep = ordinary_pieces(patch.surface, piece, options);
-  Patch kept;
-  kept.blocks = patch.blocks;
+  std::size_t kept = 0;
   for (std::size_t i = 0; i < patch.surface.size(); ++i) {
     if (keep[i] == 0) continue;
-    kept.surface.push_back(patch.surface[i]);
-    kept.vertex.push_back(patch.vertex[i]);
-    kept.block.push_back(patch.block[i]);
+    patch.surface[kept] = patch.surface[i];
+    patch.vertex[kept] = patch.vertex[i];
+    patch.block[kept] = patch.block[i];
+    ++kept;
   }
-  return kept;
+  patch.surface.resize(kept);
+  patch.vertex.resize(kept);
+  patch.block.resize(kept);
 }
 
 /// The patch's fruits with what can be said before their shapes are fitted.
@@ -212,17 +239,26 @@ void FruitMap::State::measure(KnownFruit& fruit, const KnownFruit* before,
 }
 
 /// A frame is a view of a fruit when its fruit pixels lie in most of the fruit's blocks it could.
+/// Earlier frames than those since the last update count for fruits that are new: they have seen
+/// them while they were waiting.
 void FruitMap::State::count_views() {
-  for (const auto& [time_s, blocks] : seen) {
-    for (KnownFruit& fruit : known) {
-      if (!share_element(fruit.blocks, blocks)) continue;
-      FruitEstimate& e = fruit.estimate;
-      if (e.views == 0) e.first_seen_s = time_s;
-      e.last_seen_s = time_s;
+  std::vector<char> is_new;
+  for (const KnownFruit& fruit : known) is_new.push_back(fruit.estimate.views == 0);
+  int oldest = updates + 1;
+  for (const int since : waits_since) {
+    if (since != kNotWaiting) oldest = std::min(oldest, since);
+  }
+  for (const Sight& sight : sights) {
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      if (sight.update != updates && is_new[i] == 0) continue;
+      if (!share_element(known[i].blocks, sight.blocks)) continue;
+      FruitEstimate& e = known[i].estimate;
+      if (e.views == 0) e.first_seen_s = sight.time_s;
+      e.last_seen_s = sight.time_s;
       ++e.views;
     }
   }
-  seen.clear();
+  std::erase_if(sights, [&](const Sight& sight) { return sight.update < oldest; });
 }
 
 void FruitMap::State::hand_out() {
@@ -247,27 +283,82 @@ FruitMap& FruitMap::operator=(FruitMap&&) noexcept = default;
 
 void FruitMap::add(const RgbdFrame& frame, const Mask& fruit) {
   state_->surface.add(frame, fruit);
-  state_->seen.emplace_back(frame.time_s, state_->surface.tsdf().seen_in_last_frame());
+  state_->sights.push_back(
+      {frame.time_s, state_->surface.tsdf().seen_in_last_frame(), state_->updates + 1});
 }
 
-void FruitMap::update() { state_->update(state_->surface.update(), false); }
+void FruitMap::update() { state_->update(state_->update_surface(), false); }
 
-void FruitMap::update_all() {
-  state_->surface.update();
-  std::vector<int> all(state_->surface.tsdf().blocks().size());
-  std::iota(all.begin(), all.end(), 0);
-  state_->update(all, true);
-}
+void FruitMap::update_all() { state_->update(state_->update_surface(), true); }
 
-void FruitMap::State::update(const std::vector<int>& changed, bool anew) {
-  State& s = *this;
-  std::vector<int> concerned = changed;
-  std::vector<KnownFruit> found;
-  for (const Patch& patch : s.patches_around(changed)) {
-    concerned.insert(concerned.end(), patch.blocks.begin(), patch.blocks.end());
-    if (!patch.surface.empty()) s.solve(s.without_odd(patch), found);
+/// Of the patches around what has changed those whose turn it is. `concerned`: their blocks, and
+/// changed ones where no fruit is left.
+std::vector<Patch> FruitMap::State::take_patches(const std::vector<int>& changed, bool all,
+                                                 std::vector<int>& concerned) {
+  std::vector<Patch> patches = patches_around(changed);
+  std::vector<char> has_known(waits_since.size(), 0);
+  for (const KnownFruit& fruit : known) {
+    for (const int block : fruit.blocks) has_known[block] = 1;
   }
-  std::sort(concerned.begin(), concerned.end());
+  for (Patch& patch : patches) {
+    patch.since = updates;
+    for (const int block : patch.blocks) {
+      patch.known = patch.known || has_known[block] != 0;
+      if (waits_since[block] != kNotWaiting) {
+        patch.since = std::min(patch.since, waits_since[block]);
+      }
+    }
+  }
+  std::stable_sort(patches.begin(), patches.end(), [](const Patch& a, const Patch& b) {
+    return std::make_tuple(a.known, a.since) < std::make_tuple(b.known, b.since);
+  });
+  std::size_t taken = 0;
+  std::size_t points = 0;
+  for (; taken < patches.size(); ++taken) {
+    points += patches[taken].surface.size();
+    if (!all && taken > 0 && points > static_cast<std::size_t>(options.update_points)) break;
+  }
+  std::vector<char> left(waits_since.size(), 0);
+  for (std::size_t i = taken; i < patches.size(); ++i) {
+    for (const int block : patches[i].blocks) left[block] = 1;
+  }
+  patches.resize(taken);
+  for (const Patch& patch : patches) {
+    concerned.insert(concerned.end(), patch.blocks.begin(), patch.blocks.end());
+  }
+  // Where fruit is gone beside a patch that waits, that patch's fruit may have lost it: both wait.
+  const FruitTsdf& tsdf = surface.tsdf();
+  for (const int block : changed) {
+    const VoxelIndex index = tsdf.blocks()[static_cast<std::size_t>(block)]->index;
+    bool waits = false;
+    for (int k = 0; k < 27 && !waits; ++k) {
+      const int other = tsdf.block_at(index + VoxelIndex(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
+      waits = other >= 0 && left[other] != 0;
+    }
+    if (!waits) concerned.push_back(block);
+  }
+  sort_unique(concerned);
+  for (const int block : concerned) waits_since[block] = kNotWaiting;
+  return patches;
+}
+
+void FruitMap::State::update(const std::vector<int>& new_changes, bool all) {
+  State& s = *this;
+  ++updates;
+  waits_since.resize(surface.tsdf().blocks().size(), kNotWaiting);
+  for (const int block : new_changes) {
+    if (waits_since[block] == kNotWaiting) waits_since[block] = updates;
+  }
+  std::vector<int> changed;
+  for (std::size_t block = 0; block < waits_since.size(); ++block) {
+    if (all || waits_since[block] != kNotWaiting) changed.push_back(static_cast<int>(block));
+  }
+  std::vector<int> concerned;
+  std::vector<KnownFruit> found;
+  for (Patch& patch : take_patches(changed, all, concerned)) {
+    drop_odd_pieces(patch);
+    solve(patch, found);
+  }
   std::vector<KnownFruit> before;
   std::vector<KnownFruit> after;
   for (KnownFruit& fruit : s.known) {
@@ -287,7 +378,7 @@ void FruitMap::State::update(const std::vector<int>& changed, bool anew) {
     const auto same = std::find_if(before.begin(), before.end(), [&](const KnownFruit& f) {
       return f.estimate.id == tracked[i].id;
     });
-    s.measure(found[i], same == before.end() ? nullptr : &*same, changed, anew);
+    s.measure(found[i], same == before.end() ? nullptr : &*same, changed, all);
     after.push_back(std::move(found[i]));
   }
   std::sort(after.begin(), after.end(),
@@ -301,6 +392,11 @@ const std::vector<FruitEstimate>& FruitMap::fruits() const { return state_->frui
 const std::vector<FruitEstimate>& FruitMap::candidates() const { return state_->candidates; }
 FruitEvidence FruitMap::evidence(std::size_t i) const { return state_->known[i].evidence; }
 const std::vector<IdChange>& FruitMap::id_changes() const { return state_->id_changes; }
+int FruitMap::waiting() const {
+  const auto& since = state_->waits_since;
+  const auto idle = std::count(since.begin(), since.end(), State::kNotWaiting);
+  return static_cast<int>(since.size()) - static_cast<int>(idle);
+}
 int FruitMap::fits() const { return state_->fits; }
 
 PointCloud FruitMap::cloud() const {

@@ -35,6 +35,9 @@ struct FruitMapOptions {
   // Shape and report.
   int fit_points = 160;  ///< of a fruit's surface, evenly, for its shape
   ConfidenceModel confidence;
+  /// Surface points looked at in one update, so that a frame on which much has changed holds nobody
+  /// up; what is left waits for the next. New fruits come first, and one patch of surface at least.
+  int update_points = 3000;
   double min_confidence = 0.5;  ///< less likely fruits are not reported
   std::vector<PlantRow> rows;   ///< for places in rows; none: no places
 

@@ -17,16 +17,17 @@ constexpr std::size_t kFitPoints = 160;
 
 /// Shape of the chosen points; many points are thinned evenly, which changes little and saves time.
 ShapeEstimate shape_of(std::span<const SurfacePoint> surface, const std::vector<int>& points,
-                       const ShapePrior& prior) {
+                       const ShapePrior& prior, const std::optional<ShapeEstimate>& from = {}) {
   const std::size_t stride = (points.size() + kFitPoints - 1) / kFitPoints;
   std::vector<SurfacePoint> chosen;
   for (std::size_t i = 0; i < points.size(); i += stride) chosen.push_back(surface[points[i]]);
-  return estimate_shape(chosen, prior);
+  return estimate_shape(chosen, prior, from);
 }
+
+constexpr double kReach_m = 0.09;  // of a fruit's own points from its centre
 
 /// How far a point is from being a fruit's own; none: it is not.
 std::optional<double> misfit(const ShapeEstimate& shape, const SurfacePoint& s) {
-  constexpr double kReach_m = 0.09;
   if ((s.point - shape.centre).squaredNorm() > kReach_m * kReach_m) return std::nullopt;
   const double distance = std::abs(shape.radial_distance(s.point));
   if (distance > kGate_m || shape.normal_at(s.point).dot(s.normal) < kMinNormalCos) {
@@ -35,20 +36,34 @@ std::optional<double> misfit(const ShapeEstimate& shape, const SurfacePoint& s) 
   return distance;
 }
 
-/// Each point goes to the fruit it fits best, or to none.
+/// Each point goes to the fruit it fits best, or to none. Points come in the order of the blocks
+/// they lie in, so most fruits are too far away for a whole stretch of them.
 void assign_points(std::span<const SurfacePoint> surface, std::vector<SeparatedFruit>& fruits) {
+  constexpr std::size_t kStretch = 32;
   for (SeparatedFruit& fruit : fruits) fruit.points.clear();
-  for (std::size_t i = 0; i < surface.size(); ++i) {
-    SeparatedFruit* best = nullptr;
-    double least = kGate_m + 1.0;
+  std::vector<SeparatedFruit*> near;
+  for (std::size_t from = 0; from < surface.size(); from += kStretch) {
+    const std::size_t to = std::min(surface.size(), from + kStretch);
+    Box bounds;
+    for (std::size_t i = from; i < to; ++i) bounds.extend(surface[i].point);
+    near.clear();
     for (SeparatedFruit& fruit : fruits) {
-      const std::optional<double> distance = misfit(fruit.shape, surface[i]);
-      if (distance && *distance < least) {
-        least = *distance;
-        best = &fruit;
+      if (bounds.squaredExteriorDistance(fruit.shape.centre) <= kReach_m * kReach_m) {
+        near.push_back(&fruit);
       }
     }
-    if (best != nullptr) best->points.push_back(static_cast<int>(i));
+    for (std::size_t i = from; i < to; ++i) {
+      SeparatedFruit* best = nullptr;
+      double least = kGate_m + 1.0;
+      for (SeparatedFruit* fruit : near) {
+        const std::optional<double> distance = misfit(fruit->shape, surface[i]);
+        if (distance && *distance < least) {
+          least = *distance;
+          best = fruit;
+        }
+      }
+      if (best != nullptr) best->points.push_back(static_cast<int>(i));
+    }
   }
 }
 
@@ -58,7 +73,7 @@ void refit(std::span<const SurfacePoint> surface, const FruitMapOptions& options
     return static_cast<int>(fruit.points.size()) < options.min_cluster_points;
   });
   for (SeparatedFruit& fruit : fruits) {
-    fruit.shape = shape_of(surface, fruit.points, options.prior);
+    fruit.shape = shape_of(surface, fruit.points, options.prior, fruit.shape);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "canopeer/fruit/fruit_surface.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <unordered_map>
@@ -12,77 +13,99 @@ namespace {
 
 constexpr int kSide = FruitTsdf::kSide;
 constexpr int kCorners = kSide + 1;
-constexpr float kMinWeight = 0.1F;  // about one frame from 1.5 m
 
-/// The eight corners of a cell, x fastest, and its twelve edges between them.
-constexpr int kEdges[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
-                               {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+/// Corners (x fastest) where the four edges of a cell along x, y, z begin.
+constexpr int kEdgesFrom[3][4] = {{0, 2, 4, 6}, {0, 1, 4, 5}, {0, 1, 2, 3}};
 
-constexpr std::uint8_t kUnseen = 4;
-constexpr std::uint8_t kOutside = 1;
-constexpr std::uint8_t kInside = 2;
-
-/// The voxels of a block and the first layer beyond its upper sides, and on which side of the
-/// surface each is: most cells are told from that alone.
+/// A cell's corners, x fastest.
 struct Corners {
-  std::array<const TsdfVoxel*, kCorners * kCorners * kCorners> voxel;
-  std::array<std::uint8_t, kCorners * kCorners * kCorners> side;
-
-  static std::size_t index(int x, int y, int z) {
-    return static_cast<std::size_t>(x + kCorners * (y + kCorners * z));
-  }
-  /// Whether the surface goes through the cell and all its corners were seen.
-  [[nodiscard]] bool crossed(int x, int y, int z) const {
-    const std::uint8_t* s = side.data() + index(x, y, z);
-    constexpr int kUp = kCorners * kCorners;
-    return (s[0] | s[1] | s[kCorners] | s[kCorners + 1] | s[kUp] | s[kUp + 1] | s[kUp + kCorners] |
-            s[kUp + kCorners + 1]) == (kOutside | kInside);
-  }
+  std::array<float, 8> distance_m{};
+  std::array<const TsdfLooks*, 8> looks{};
 };
 
-Corners corners_of(const FruitTsdf& tsdf, const FruitTsdf::Block& block) {
-  Corners corners;
-  corners.side.fill(kUnseen);
-  const FruitTsdf::Block* around[8];
-  for (int k = 0; k < 8; ++k) {
-    const int number = tsdf.block_at(block.index + VoxelIndex(k & 1, (k >> 1) & 1, k >> 2));
-    around[k] = number < 0 ? nullptr : tsdf.blocks()[static_cast<std::size_t>(number)].get();
-  }
-  for (int z = 0; z < kCorners; ++z) {
-    for (int y = 0; y < kCorners; ++y) {
-      for (int x = 0; x < kCorners; ++x) {
-        const int k = (x == kSide) + 2 * (y == kSide) + 4 * (z == kSide);
-        if (around[k] == nullptr) continue;
-        const TsdfVoxel& v = around[k]->voxels[static_cast<std::size_t>(
-            FruitTsdf::offset(x % kSide, y % kSide, z % kSide))];
-        if (v.weight < kMinWeight) continue;
-        corners.voxel[Corners::index(x, y, z)] = &v;
-        corners.side[Corners::index(x, y, z)] = v.distance_m < 0.0F ? kInside : kOutside;
-      }
+/// A block and those above it along the axes: the cells' corners lie in them. Which cells the
+/// surface goes through is told from the bits of whole rows.
+class CellCorners {
+ public:
+  CellCorners(const FruitTsdf& tsdf, const FruitTsdf::Block& block) {
+    for (int k = 0; k < 8; ++k) {
+      const int number = tsdf.block_at(block.index + VoxelIndex(k & 1, (k >> 1) & 1, k >> 2));
+      if (number >= 0) around_[k] = tsdf.blocks()[static_cast<std::size_t>(number)].get();
+    }
+    for (int z = 0; z < kCorners; ++z) {
+      for (int y = 0; y < kCorners; ++y) set_row(y, z);
     }
   }
-  return corners;
-}
+
+  /// Bit x: the surface goes through the cell and all its corners were seen.
+  [[nodiscard]] unsigned crossed(int y, int z) const {
+    const auto in_cells = [](unsigned any) { return any | any >> 1U; };
+    const unsigned seen = seen_[z][y] & seen_[z][y + 1] & seen_[z + 1][y] & seen_[z + 1][y + 1];
+    const unsigned inside =
+        inside_[z][y] | inside_[z][y + 1] | inside_[z + 1][y] | inside_[z + 1][y + 1];
+    const unsigned outside =
+        ~(inside_[z][y] & inside_[z][y + 1] & inside_[z + 1][y] & inside_[z + 1][y + 1]);
+    return seen & seen >> 1U & in_cells(inside) & in_cells(outside) & 0xFFU;
+  }
+
+  /// Of a cell all of whose corners were seen.
+  [[nodiscard]] Corners of_cell(int x, int y, int z) const {
+    Corners corners;
+    for (int k = 0; k < 8; ++k) {
+      const int cx = x + (k & 1);
+      const int cy = y + ((k >> 1) & 1);
+      const int cz = z + (k >> 2);
+      const FruitTsdf::Block& block = *around_[(cx >> 3) + 2 * (cy >> 3) + 4 * (cz >> 3)];
+      const std::size_t voxel = FruitTsdf::offset(cx & 7, cy & 7, cz & 7);
+      corners.distance_m[k] = block.distance_m[voxel];
+      corners.looks[k] = &block.looks[voxel];
+    }
+    return corners;
+  }
+
+ private:
+  /// Nine corners: eight of the block the row lies in, the first of the next along x.
+  void set_row(int y, int z) {
+    const int here = 2 * (y >> 3) + 4 * (z >> 3);
+    const std::size_t row = static_cast<std::size_t>((y & 7) + kSide * (z & 7));
+    unsigned seen = 0;
+    unsigned inside = 0;
+    if (const FruitTsdf::Block* block = around_[here]) {
+      seen = block->seen[row];
+      inside = block->inside[row];
+    }
+    if (const FruitTsdf::Block* next = around_[here + 1]) {
+      seen |= (next->seen[row] & 1U) << 8U;
+      inside |= (next->inside[row] & 1U) << 8U;
+    }
+    seen_[z][y] = seen;
+    inside_[z][y] = inside;
+  }
+
+  const FruitTsdf::Block* around_[8] = {};
+  unsigned seen_[kCorners][kCorners];
+  unsigned inside_[kCorners][kCorners];
+};
 
 /// Gradient of the distance in the middle of a cell: the mean difference along each axis.
-Vec3 gradient_of(const std::array<const TsdfVoxel*, 8>& c) {
+Vec3 gradient_of(const std::array<float, 8>& distance_m) {
   Vec3 g = Vec3::Zero();
   for (int k = 0; k < 8; ++k) {
     for (int axis = 0; axis < 3; ++axis) {
-      g[axis] += ((k >> axis) & 1) != 0 ? c[k]->distance_m : -c[k]->distance_m;
+      g[axis] += ((k >> axis) & 1) != 0 ? distance_m[k] : -distance_m[k];
     }
   }
   return g;
 }
 
-void set_looks(const std::array<const TsdfVoxel*, 8>& c, SurfaceVertex& vertex) {
+void set_looks(const std::array<const TsdfLooks*, 8>& corners, SurfaceVertex& vertex) {
   std::array<float, kPixelLabels> votes{};
   std::array<float, 3> color{};
   float color_weight = 1e-6F;
-  for (const TsdfVoxel* voxel : c) {
-    for (int k = 0; k < kPixelLabels; ++k) votes[k] += voxel->votes[k];
-    for (int k = 0; k < 3; ++k) color[k] += voxel->color_weight * voxel->color[k];
-    color_weight += voxel->color_weight;
+  for (const TsdfLooks* looks : corners) {
+    for (int k = 0; k < kPixelLabels; ++k) votes[k] += looks->votes[k];
+    for (int k = 0; k < 3; ++k) color[k] += looks->color_weight * looks->color[k];
+    color_weight += looks->color_weight;
   }
   const float fruit = votes[1] + votes[2] + votes[3];
   vertex.fruit_share = fruit / std::max(1e-6F, fruit + votes[0]);
@@ -94,46 +117,44 @@ void set_looks(const std::array<const TsdfVoxel*, 8>& c, SurfaceVertex& vertex) 
   vertex.color = {channel(0), channel(1), channel(2)};
 }
 
-std::optional<SurfaceVertex> vertex_of(const std::array<const TsdfVoxel*, 8>& c,
-                                       const VoxelIndex& cell, double voxel_m) {
-  Vec3 sum = Vec3::Zero();
+std::optional<SurfaceVertex> vertex_of(const Corners& corners, const VoxelIndex& cell,
+                                       double voxel_m) {
+  float sum[3] = {};
   int crossings = 0;
-  for (const auto& [a, b] : kEdges) {
-    const float da = c[a]->distance_m;
-    const float db = c[b]->distance_m;
-    if ((da < 0.0F) == (db < 0.0F)) continue;
-    const double t = da / (da - db);
-    const Vec3 from(a & 1, (a >> 1) & 1, a >> 2);
-    const Vec3 to(b & 1, (b >> 1) & 1, b >> 2);
-    sum += from + t * (to - from);
-    ++crossings;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int a : kEdgesFrom[axis]) {
+      const float da = corners.distance_m[a];
+      const float db = corners.distance_m[a | 1 << axis];
+      if ((da < 0.0F) == (db < 0.0F)) continue;
+      for (int k = 0; k < 3; ++k) {
+        sum[k] += k == axis ? da / (da - db) : static_cast<float>((a >> k) & 1);
+      }
+      ++crossings;
+    }
   }
   if (crossings == 0) return std::nullopt;
-  const Vec3 gradient = gradient_of(c);
+  const Vec3 gradient = gradient_of(corners.distance_m);
   if (!(gradient.norm() > 1e-9)) return std::nullopt;
   SurfaceVertex vertex;
   vertex.cell = cell;
-  vertex.surface.point = voxel_centre(cell, voxel_m) + voxel_m * sum / crossings;
+  vertex.surface.point =
+      voxel_centre(cell, voxel_m) + voxel_m / crossings * Vec3(sum[0], sum[1], sum[2]);
   vertex.surface.normal = gradient.normalized();
-  set_looks(c, vertex);
+  set_looks(corners.looks, vertex);
   return vertex;
 }
 
 }  // namespace
 
 std::vector<SurfaceVertex> FruitSurface::extract(const FruitTsdf::Block& block) const {
-  const Corners corners = corners_of(tsdf_, block);
+  const CellCorners corners(tsdf_, block);
   std::vector<SurfaceVertex> vertices;
-  std::array<const TsdfVoxel*, 8> c{};
   for (int z = 0; z < kSide; ++z) {
     for (int y = 0; y < kSide; ++y) {
-      for (int x = 0; x < kSide; ++x) {
-        if (!corners.crossed(x, y, z)) continue;
-        for (int k = 0; k < 8; ++k) {
-          c[k] = corners.voxel[Corners::index(x + (k & 1), y + ((k >> 1) & 1), z + (k >> 2))];
-        }
+      for (unsigned bits = corners.crossed(y, z); bits != 0; bits &= bits - 1) {
+        const int x = std::countr_zero(bits);
         const VoxelIndex cell = block.index * kSide + VoxelIndex(x, y, z);
-        auto vertex = vertex_of(c, cell, tsdf_.options().voxel_m);
+        auto vertex = vertex_of(corners.of_cell(x, y, z), cell, tsdf_.options().voxel_m);
         if (vertex) vertices.push_back(*vertex);
       }
     }
@@ -167,11 +188,10 @@ SurfaceMesh FruitSurface::mesh() const {
     const int number = tsdf_.block_at(block);
     if (number < 0) return std::nullopt;
     const VoxelIndex in = voxel - block * kSide;
-    const TsdfVoxel& v =
-        tsdf_.blocks()[static_cast<std::size_t>(number)]
-            ->voxels[static_cast<std::size_t>(FruitTsdf::offset(in.x(), in.y(), in.z()))];
-    if (v.weight < kMinWeight) return std::nullopt;
-    return v.distance_m;
+    const FruitTsdf::Block& held = *tsdf_.blocks()[static_cast<std::size_t>(number)];
+    const std::size_t at = FruitTsdf::offset(in.x(), in.y(), in.z());
+    if (held.weight[at] < FruitTsdf::kSeenWeight) return std::nullopt;
+    return held.distance_m[at];
   };
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const VoxelIndex cell = mesh.vertices[i].cell;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "canopeer/base/check.h"
+#include "canopeer/fruit/depth_tiles.h"
 #include "canopeer/fruit/voxel_key.h"
 
 namespace canopeer {
@@ -25,6 +27,13 @@ bool at_depth_edge(const DepthImage& depth, int u, int v, float max_step) {
 constexpr std::uint8_t kBelow[8] = {0b00000001, 0b00000011, 0b00000101, 0b00001111,
                                     0b00010001, 0b00110011, 0b01010101, 0b11111111};
 
+/// Most of an image is no fruit: eight pixels are told at once.
+bool none_of_eight(const std::uint8_t* labels) {
+  std::uint64_t eight = 0;
+  std::memcpy(&eight, labels, sizeof eight);
+  return eight == 0;
+}
+
 /// Depth errors grow with the square of the distance, so a pixel counts as much as it is sure.
 float weight_at(float depth_m) {
   constexpr float kUnitDepth = 0.5F;
@@ -33,6 +42,29 @@ float weight_at(float depth_m) {
 }
 
 }  // namespace
+
+/// A frame with what all blocks want to know of it.
+struct FruitTsdf::View {
+  View(const RgbdFrame& f, const Image<std::uint8_t>& c, const TsdfOptions& o)
+      : frame(f),
+        classes(c),
+        T_camera_world(f.T_world_camera.inverse()),
+        step((T_camera_world.linear() * o.voxel_m).cast<float>()),
+        tiles(f.depth),
+        truncation(static_cast<float>(o.truncation_m)),
+        max_weight(static_cast<float>(o.max_weight)),
+        max_range(static_cast<float>(o.max_range_m)),
+        max_step(static_cast<float>(o.max_depth_step_m)),
+        near_surface(static_cast<float>(1.5 * o.voxel_m)),
+        changed(static_cast<float>(o.changed_m)) {}
+
+  const RgbdFrame& frame;
+  const Image<std::uint8_t>& classes;
+  Pose T_camera_world;
+  Eigen::Matrix3f step;  // from voxel to voxel along x, y, z, camera frame
+  DepthTiles tiles;
+  float truncation, max_weight, max_range, max_step, near_surface, changed;
+};
 
 Expected<void> TsdfOptions::validate() const {
   if (!(voxel_m >= 0.0005) || voxel_m > 0.02) return fail("voxel_m must be in [0.0005, 0.02]");
@@ -62,38 +94,59 @@ void FruitTsdf::add(const RgbdFrame& frame, const Image<std::uint8_t>& classes) 
                  "depth as the intrinsics say");
   ++frames_;
   allocate(frame, classes);
+  const View view(frame, classes, options_);
+  for (const auto& block : blocks_) {
+    if (in_sight(block->index, view)) fuse_block(*block, view);
+  }
+}
+
+/// Whether the frame may tell anything of the block: it is in front of the camera, and some pixel
+/// on it sees as far.
+bool FruitTsdf::in_sight(const VoxelIndex& block, const View& view) const {
+  const CameraIntrinsics& k = view.frame.intrinsics;
   const double side_m = kSide * options_.voxel_m;
   const double reach_m = 0.5 * std::sqrt(3.0) * side_m;
-  const Pose T_camera_world = frame.T_world_camera.inverse();
-  for (const auto& block : blocks_) {
-    const Vec3 c = T_camera_world * voxel_centre(block->index, side_m);
-    if (c.z() < reach_m + 0.02 || c.z() > options_.max_range_m + reach_m) continue;
-    const double u = k.fx * c.x() / c.z() + k.cx;
-    const double v = k.fy * c.y() / c.z() + k.cy;
-    const double margin = k.fx * reach_m / (c.z() - reach_m);
-    if (u < -margin || v < -margin || u > k.width + margin || v > k.height + margin) continue;
-    fuse_block(*block, frame, classes);
-  }
+  const Vec3 c = view.T_camera_world * voxel_centre(block, side_m);
+  if (c.z() < reach_m + 0.02 || c.z() > options_.max_range_m + reach_m) return false;
+  const double u = k.fx * c.x() / c.z() + k.cx;
+  const double v = k.fy * c.y() / c.z() + k.cy;
+  const double margin = k.fx * reach_m / (c.z() - reach_m) * (1.0 + std::abs(c.x() / c.z())) + 1.0;
+  const double margin_v =
+      k.fy * reach_m / (c.z() - reach_m) * (1.0 + std::abs(c.y() / c.z())) + 1.0;
+  if (u < -margin || v < -margin_v || u > k.width + margin || v > k.height + margin_v) return false;
+  const double farthest = view.tiles.farthest(u - margin, v - margin_v, u + margin, v + margin_v);
+  return farthest > 0.0 && farthest - (c.z() - reach_m) > -1.001 * options_.truncation_m;
 }
 
 /// Makes the blocks within the truncation of fruit pixels.
 void FruitTsdf::allocate(const RgbdFrame& frame, const Image<std::uint8_t>& classes) {
   const CameraIntrinsics& k = frame.intrinsics;
-  const double side_m = kSide * options_.voxel_m;
+  const double blocks_per_m = 1.0 / (kSide * options_.voxel_m);
   // Every pixel of far surfaces, every other one of near ones: voxels are larger than pixels.
   const auto step = static_cast<float>(options_.max_depth_step_m);
+  const auto max_range = static_cast<float>(options_.max_range_m);
+  // In blocks: where the camera is, and what a pixel's ray adds for each metre of depth.
+  const Vec3 camera = blocks_per_m * frame.T_world_camera.translation();
+  const Eigen::Matrix3d turn = blocks_per_m * frame.T_world_camera.linear();
+  const Vec3 along_u = turn.col(0) / k.fx;
+  const Vec3 around = Vec3::Constant(blocks_per_m * options_.truncation_m);
   seen_.clear();
   VoxelIndex last_low = VoxelIndex::Constant(1 << 20);
   VoxelIndex last_high = last_low;
   for (int v = 1; v + 1 < k.height; ++v) {
+    const Vec3 row = turn * k.ray(0, v);
+    const std::uint8_t* const labels = &classes.at(0, v);
     for (int u = 1 + v % 2; u + 1 < k.width; u += 2) {
-      if (classes.at(u, v) == 0) continue;
+      if (u + 8 < k.width && none_of_eight(labels + u)) {
+        u += 6;
+        continue;
+      }
+      if (labels[u] == 0) continue;
       const float z = frame.depth.at(u, v);
-      if (!(z > 0.0F) || z > options_.max_range_m) continue;
-      const Vec3 p = frame.T_world_camera * (double{z} * k.ray(u, v));
-      const Vec3 around = Vec3::Constant(options_.truncation_m);
-      const VoxelIndex low = voxel_at(p - around, side_m);
-      const VoxelIndex high = voxel_at(p + around, side_m);
+      if (!(z > 0.0F) || z > max_range) continue;
+      const Vec3 p = camera + double{z} * (row + u * along_u);
+      const VoxelIndex low = (p - around).array().floor().cast<int>();
+      const VoxelIndex high = (p + around).array().floor().cast<int>();
       if (low == last_low && high == last_high) continue;
       if (at_depth_edge(frame.depth, u, v, step)) continue;
       last_low = low;
@@ -120,70 +173,91 @@ void FruitTsdf::allocate(const RgbdFrame& frame, const Image<std::uint8_t>& clas
   std::sort(seen_.begin(), seen_.end());
 }
 
-void FruitTsdf::fuse_block(Block& block, const RgbdFrame& frame,
-                           const Image<std::uint8_t>& classes) const {
-  const CameraIntrinsics& k = frame.intrinsics;
-  const auto truncation = static_cast<float>(options_.truncation_m);
-  const auto max_weight = static_cast<float>(options_.max_weight);
-  const auto max_range = static_cast<float>(options_.max_range_m);
-  const auto max_step = static_cast<float>(options_.max_depth_step_m);
-  const auto near_surface = static_cast<float>(1.5 * options_.voxel_m);
-  const auto changed = static_cast<float>(options_.changed_m);
-  const bool colored = !frame.color.empty();
-  const Pose T_camera_world = frame.T_world_camera.inverse();
-  const Eigen::Matrix3f step = (T_camera_world.linear() * options_.voxel_m).template cast<float>();
-  const VoxelIndex first = block.index * kSide;
-  const Eigen::Vector3f origin =
-      (T_camera_world * voxel_centre(first, options_.voxel_m)).template cast<float>();
-  const auto fx = static_cast<float>(k.fx);
-  const auto fy = static_cast<float>(k.fy);
-  const auto cx = static_cast<float>(k.cx);
-  const auto cy = static_cast<float>(k.cy);
-  for (int z = 0; z < kSide; ++z) {
-    for (int y = 0; y < kSide; ++y) {
-      Eigen::Vector3f p =
-          origin + static_cast<float>(y) * step.col(1) + static_cast<float>(z) * step.col(2);
-      for (int x = 0; x < kSide; ++x, p += step.col(0)) {
-        if (!(p.z() > 0.05F)) continue;
-        const float slope_u = p.x() / p.z();
-        const float slope_v = p.y() / p.z();
-        const float u_real = fx * slope_u + cx;
-        const float v_real = fy * slope_v + cy;
-        if (!(u_real >= 0.0F && v_real >= 0.0F)) continue;
-        const int u = static_cast<int>(u_real);
-        const int v = static_cast<int>(v_real);
-        if (u >= k.width || v >= k.height) continue;
-        const float depth = frame.depth.at(u, v);
-        if (!(depth > 0.0F)) continue;
-        const float per_depth = std::sqrt(1.0F + slope_u * slope_u + slope_v * slope_v);
-        const float distance = (depth - p.z()) * per_depth;
-        if (distance < -truncation) continue;
-        if (depth > max_range && distance < truncation) continue;
-        if (distance < truncation && at_depth_edge(frame.depth, u, v, max_step)) continue;
-        TsdfVoxel& voxel = block.voxels[static_cast<std::size_t>(offset(x, y, z))];
-        const float weight = weight_at(p.z());
-        const float before = voxel.distance_m;
-        const float sum = voxel.weight + weight;
-        voxel.distance_m = (voxel.weight * before + weight * std::min(distance, truncation)) / sum;
-        if (std::abs(voxel.distance_m) < 2.0F * near_surface ||
-            std::abs(before) < 2.0F * near_surface) {
-          const bool moved = voxel.weight == 0.0F || std::abs(voxel.distance_m - before) > changed;
-          if (moved) block.changed |= kBelow[(x == 0) + 2 * (y == 0) + 4 * (z == 0)];
-        }
-        voxel.weight = std::min(sum, max_weight);
-        if (std::abs(distance) > near_surface) continue;
-        const std::uint8_t what = classes.at(u, v);
-        voxel.votes[std::min<std::size_t>(what, kPixelLabels - 1)] += weight;
-        if (what == 0 || !colored) continue;
-        const Rgb& c = frame.color.at(u, v);
-        voxel.color_weight += weight;
-        const float share = weight / voxel.color_weight;
-        voxel.color[0] += share * (static_cast<float>(c.r) - voxel.color[0]);
-        voxel.color[1] += share * (static_cast<float>(c.g) - voxel.color[1]);
-        voxel.color[2] += share * (static_cast<float>(c.b) - voxel.color[2]);
-      }
+/// Voxels of a row along x in the camera: which pixel sees each, along a ray that is `per_depth`
+/// long for each metre of depth. In arrays, so that the compiler takes four at a time.
+struct ProjectedRow {
+  std::array<float, FruitTsdf::kSide> z, u, v, per_depth;
+
+  ProjectedRow(const Eigen::Vector3f& first, const Eigen::Vector3f& step,
+               const CameraIntrinsics& k) {
+    const auto fx = static_cast<float>(k.fx);
+    const auto fy = static_cast<float>(k.fy);
+    const auto cx = static_cast<float>(k.cx);
+    const auto cy = static_cast<float>(k.cy);
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      const auto along = static_cast<float>(i);
+      z[i] = first.z() + along * step.z();
+      const float slope_u = (first.x() + along * step.x()) / z[i];
+      const float slope_v = (first.y() + along * step.y()) / z[i];
+      u[i] = fx * slope_u + cx;
+      v[i] = fy * slope_v + cy;
+      per_depth[i] = std::sqrt(1.0F + slope_u * slope_u + slope_v * slope_v);
     }
   }
+};
+
+void FruitTsdf::fuse_block(Block& block, const View& view) const {
+  const CameraIntrinsics& k = view.frame.intrinsics;
+  const DepthImage& depths = view.frame.depth;
+  const auto width = static_cast<float>(k.width);
+  const auto height = static_cast<float>(k.height);
+  const Eigen::Vector3f origin =
+      (view.T_camera_world * voxel_centre(block.index * kSide, options_.voxel_m)).cast<float>();
+  for (int row = 0; row < kSide * kSide; ++row) {
+    const Eigen::Vector3f first = origin + static_cast<float>(row % kSide) * view.step.col(1) +
+                                  static_cast<float>(row / kSide) * view.step.col(2);
+    const ProjectedRow p(first, view.step.col(0), k);
+    for (std::size_t x = 0; x < kSide; ++x) {
+      if (!(p.z[x] > 0.05F)) continue;
+      if (!(p.u[x] >= 0.0F && p.v[x] >= 0.0F && p.u[x] < width && p.v[x] < height)) continue;
+      const int u = static_cast<int>(p.u[x]);
+      const int v = static_cast<int>(p.v[x]);
+      const float depth = depths.at(u, v);
+      if (!(depth > 0.0F)) continue;
+      const float distance = (depth - p.z[x]) * p.per_depth[x];
+      if (distance < -view.truncation) continue;
+      if (depth > view.max_range && distance < view.truncation) continue;
+      if (distance < view.truncation && at_depth_edge(depths, u, v, view.max_step)) continue;
+      fuse_voxel(block, static_cast<std::size_t>(row) * kSide + x, distance, p.z[x], u, v, view);
+    }
+  }
+}
+
+/// `distance` from the voxel, at depth z, to the surface that pixel (u, v) sees.
+void FruitTsdf::fuse_voxel(Block& block, std::size_t voxel, float distance, float z, int u, int v,
+                           const View& view) const {
+  const float weight = weight_at(z);
+  const float before = block.distance_m[voxel];
+  const float weight_before = block.weight[voxel];
+  const float sum = weight_before + weight;
+  const float now = (weight_before * before + weight * std::min(distance, view.truncation)) / sum;
+  block.distance_m[voxel] = now;
+  block.weight[voxel] = std::min(sum, view.max_weight);
+  const std::size_t row = voxel / kSide;
+  const auto bit = static_cast<std::uint8_t>(1U << voxel % kSide);
+  if (sum >= kSeenWeight) block.seen[row] |= bit;
+  if (now < 0.0F) {
+    block.inside[row] |= bit;
+  } else {
+    block.inside[row] &= static_cast<std::uint8_t>(~bit);
+  }
+  if (std::abs(now) < 2.0F * view.near_surface || std::abs(before) < 2.0F * view.near_surface) {
+    const bool moved = weight_before == 0.0F || std::abs(now - before) > view.changed;
+    if (moved) {
+      block.changed |= kBelow[(voxel % kSide == 0) + 2 * (row % kSide == 0) + 4 * (row < kSide)];
+    }
+  }
+  if (std::abs(distance) > view.near_surface) return;
+  TsdfLooks& looks = block.looks[voxel];
+  const std::uint8_t what = view.classes.at(u, v);
+  looks.votes[std::min<std::size_t>(what, kPixelLabels - 1)] += weight;
+  if (what == 0 || view.frame.color.empty()) return;
+  const Rgb& c = view.frame.color.at(u, v);
+  looks.color_weight += weight;
+  const float share = weight / looks.color_weight;
+  looks.color[0] += share * (static_cast<float>(c.r) - looks.color[0]);
+  looks.color[1] += share * (static_cast<float>(c.g) - looks.color[1]);
+  looks.color[2] += share * (static_cast<float>(c.b) - looks.color[2]);
 }
 
 std::vector<int> FruitTsdf::take_changed() {

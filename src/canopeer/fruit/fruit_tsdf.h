@@ -26,10 +26,8 @@ struct TsdfOptions {
   [[nodiscard]] Expected<void> validate() const;
 };
 
-/// One voxel: a truncated signed distance (positive outside) and who saw the surface near it.
-struct TsdfVoxel {
-  float distance_m = 0.0F;
-  float weight = 0.0F;  ///< 0: never seen
+/// Who saw the surface near a voxel, and how it looks there.
+struct TsdfLooks {
   std::array<float, 3> color{};
   float color_weight = 0.0F;
   std::array<float, kPixelLabels> votes{};  ///< pixels near the surface, by class
@@ -43,9 +41,17 @@ class FruitTsdf {
  public:
   static constexpr int kSide = 8;
   static constexpr int kVoxels = kSide * kSide * kSide;
+  static constexpr float kSeenWeight = 0.1F;  ///< about one frame from 1.5 m
   struct Block {
     VoxelIndex index = VoxelIndex::Zero();  ///< in blocks
-    std::array<TsdfVoxel, kVoxels> voxels;
+    // Of each voxel (see offset()) the truncated signed distance, positive outside, and how much it
+    // is sure of; 0: never seen. Apart from the rest, since most voxels are looked at for no more.
+    std::array<float, kVoxels> distance_m{};
+    std::array<float, kVoxels> weight{};
+    std::array<TsdfLooks, kVoxels> looks;
+    /// By row along x (y + 8 z), bit x: weight is at least kSeenWeight; distance is negative.
+    std::array<std::uint8_t, kSide * kSide> seen{};
+    std::array<std::uint8_t, kSide * kSide> inside{};
     /// Which blocks' surface has changed since take_changed(): bit k is the block below by 1 along
     /// x (k & 1), y (k & 2), z (k & 4), whose upper cells have corners here; bit 0 is this one.
     std::uint8_t changed = 0;
@@ -69,11 +75,17 @@ class FruitTsdf {
   [[nodiscard]] int frames() const { return frames_; }
   [[nodiscard]] const TsdfOptions& options() const { return options_; }
 
-  static int offset(int x, int y, int z) { return x + kSide * (y + kSide * z); }
+  static std::size_t offset(int x, int y, int z) {
+    return static_cast<std::size_t>(x + kSide * (y + kSide * z));
+  }
 
  private:
+  struct View;
   void allocate(const RgbdFrame& frame, const Image<std::uint8_t>& classes);
-  void fuse_block(Block& block, const RgbdFrame& frame, const Image<std::uint8_t>& classes) const;
+  [[nodiscard]] bool in_sight(const VoxelIndex& block, const View& view) const;
+  void fuse_block(Block& block, const View& view) const;
+  void fuse_voxel(Block& block, std::size_t voxel, float distance, float depth, int u, int v,
+                  const View& view) const;
 
   TsdfOptions options_;
   std::vector<std::unique_ptr<Block>> blocks_;

@@ -109,12 +109,17 @@ Vec3 centre_vote(const SurfacePoint& s, double radius_m, double half_length_m) {
   return s.point - dn / std::sqrt(s.normal.dot(dn));
 }
 
-ShapeEstimate estimate_shape(std::span<const SurfacePoint> surface, const ShapePrior& prior) {
+ShapeEstimate estimate_shape(std::span<const SurfacePoint> surface, const ShapePrior& prior,
+                             const std::optional<ShapeEstimate>& from) {
   CANOPEER_CHECK(!surface.empty(), "a shape needs points");
   ShapeEstimate shape;
-  shape.radius_m = prior.radius_m;
-  shape.half_length_m = prior.half_length_m;
-  shape.centre = mean_centre_vote(surface, prior.radius_m, prior.half_length_m);
+  if (from) {
+    shape = *from;
+  } else {
+    shape.radius_m = prior.radius_m;
+    shape.half_length_m = prior.half_length_m;
+    shape.centre = mean_centre_vote(surface, prior.radius_m, prior.half_length_m);
+  }
   Normal5 h;
   Parameters g;
   for (int step = 0; step < kMaxSteps; ++step) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "canopeer/fruit/shape_prior.h"
@@ -27,10 +28,10 @@ struct ShapeEstimate {
 
 /// Maximum a posteriori spheroid of one fruit's surface points: robust radial distances, the prior
 /// on both semi-axes, and the normals' vote for the centre. From one side only the centre comes out
-/// within about a centimetre. Needs at least one point. Deterministic.
-///
-/// This is the one place where a cluster gets its shape: fitting superellipsoids goes here.
+/// within about a centimetre. `from`: where to start, nearer than the prior's size. Needs at least
+/// one point. Deterministic.
 [[nodiscard]] ShapeEstimate estimate_shape(std::span<const SurfacePoint> surface,
-                                           const ShapePrior& prior = {});
+                                           const ShapePrior& prior = {},
+                                           const std::optional<ShapeEstimate>& from = std::nullopt);
 
 }  // namespace canopeer

@@ -1,9 +1,8 @@
 #include "canopeer/fruit/vote_peaks.h"
 
 #include <algorithm>
-#include <tuple>
 
-#include "canopeer/geometry/voxel_ray.h"
+#include "canopeer/fruit/voxel_key.h"
 
 namespace canopeer {
 namespace {
@@ -14,8 +13,8 @@ constexpr int kShifts = 8;
 
 struct Vote {
   Vec3 centre;
-  VoxelIndex bin;
-  bool open = true;  // not yet near a peak
+  std::uint64_t place = 0;  // of its bin, by x, then y, then z
+  bool open = true;         // not yet near a peak
 };
 
 struct Bin {
@@ -28,7 +27,7 @@ std::vector<Vote> votes_of(std::span<const SurfacePoint> surface, const ShapePri
   votes.reserve(surface.size());
   for (const SurfacePoint& s : surface) {
     const Vec3 centre = centre_vote(s, prior.radius_m, prior.half_length_m);
-    votes.push_back({centre, voxel_at(centre, kBin_m)});
+    votes.push_back({centre, voxel_key(voxel_at(centre, kBin_m))});
   }
   return votes;
 }
@@ -37,14 +36,11 @@ std::vector<Vote> votes_of(std::span<const SurfacePoint> surface, const ShapePri
 std::vector<Bin> fullest_bins(const std::vector<Vote>& votes) {
   std::vector<int> order(votes.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
-  const auto place = [&](int i) {
-    const VoxelIndex& b = votes[i].bin;
-    return std::make_tuple(b.x(), b.y(), b.z());
-  };
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return place(a) < place(b); });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return votes[a].place < votes[b].place; });
   std::vector<Bin> bins;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i == 0 || votes[order[i]].bin != votes[order[i - 1]].bin) bins.emplace_back();
+    if (i == 0 || votes[order[i]].place != votes[order[i - 1]].place) bins.emplace_back();
     bins.back().votes.push_back(order[i]);
     bins.back().mean += votes[order[i]].centre;
   }

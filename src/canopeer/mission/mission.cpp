@@ -58,6 +58,7 @@ Expected<void> Mission::run(RecordWriter& writer) {
   auto planner = make_planner(state_->options.planner, state_->options.planners);
   if (!planner) return fail(planner.error().message);
   const auto outcome = state_->run_segments(**planner, writer);
+  state_->perception.finish(state_->timer);
   RunRecord& record = state_->record;
   record.work = state_->work_items();
   record.end_s = state_->ports.clock->now_s();

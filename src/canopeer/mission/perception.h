@@ -40,6 +40,11 @@ class Perception {
   Expected<Observation> observe(const RgbdFrame& frame, const Box& region_world, WorkMeter& work,
                                 StageTimer& timer);
 
+  /// The run is over: fruits whose refinement was put off get it, all shapes are fitted once more.
+  void finish(StageTimer& timer) {
+    timer.time("fruit map", [&] { fruits_.update_all(); });
+  }
+
   [[nodiscard]] const VoxelMap& map() const { return map_; }
   [[nodiscard]] const DistanceField& field() const { return *field_; }
   [[nodiscard]] const FruitMap& fruits() const { return fruits_; }
