@@ -16,7 +16,7 @@ class DepthTiles {
   [[nodiscard]] float farthest(double u_low, double v_low, double u_high, double v_high) const;
 
  private:
-  static constexpr int kSide = 16;
+  static constexpr int kSide = 8;
   int columns_ = 0;
   int rows_ = 0;
   std::vector<float> farthest_;

@@ -126,9 +126,7 @@ std::vector<Patch> FruitMap::State::patches_around(const std::vector<int>& chang
   // A changed block may have lost its surface; its neighbours then still want another look.
   std::vector<int> starts;
   for (const int block : changed) {
-    const VoxelIndex index = tsdf.blocks()[static_cast<std::size_t>(block)]->index;
-    for (int k = 0; k < 27; ++k) {
-      const int other = tsdf.block_at(index + VoxelIndex(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
+    for (const int other : tsdf.blocks()[static_cast<std::size_t>(block)]->around) {
       if (other >= 0 && has_fruit(other)) starts.push_back(other);
     }
   }
@@ -140,9 +138,7 @@ std::vector<Patch> FruitMap::State::patches_around(const std::vector<int>& chang
     reached[start] = 1;
     patch.blocks.push_back(start);
     for (std::size_t next = 0; next < patch.blocks.size(); ++next) {
-      const VoxelIndex index = tsdf.blocks()[static_cast<std::size_t>(patch.blocks[next])]->index;
-      for (int k = 0; k < 27; ++k) {
-        const int other = tsdf.block_at(index + VoxelIndex(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
+      for (const int other : tsdf.blocks()[static_cast<std::size_t>(patch.blocks[next])]->around) {
         if (other < 0 || reached[other] != 0 || !has_fruit(other)) continue;
         reached[other] = 1;
         patch.blocks.push_back(other);
@@ -329,12 +325,9 @@ std::vector<Patch> FruitMap::State::take_patches(const std::vector<int>& changed
   // Where fruit is gone beside a patch that waits, that patch's fruit may have lost it: both wait.
   const FruitTsdf& tsdf = surface.tsdf();
   for (const int block : changed) {
-    const VoxelIndex index = tsdf.blocks()[static_cast<std::size_t>(block)]->index;
-    bool waits = false;
-    for (int k = 0; k < 27 && !waits; ++k) {
-      const int other = tsdf.block_at(index + VoxelIndex(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
-      waits = other >= 0 && left[other] != 0;
-    }
+    const auto& around = tsdf.blocks()[static_cast<std::size_t>(block)]->around;
+    const bool waits = std::any_of(around.begin(), around.end(),
+                                   [&](int other) { return other >= 0 && left[other] != 0; });
     if (!waits) concerned.push_back(block);
   }
   sort_unique(concerned);

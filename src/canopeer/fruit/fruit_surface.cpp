@@ -29,7 +29,7 @@ class CellCorners {
  public:
   CellCorners(const FruitTsdf& tsdf, const FruitTsdf::Block& block) {
     for (int k = 0; k < 8; ++k) {
-      const int number = tsdf.block_at(block.index + VoxelIndex(k & 1, (k >> 1) & 1, k >> 2));
+      const int number = block.around[13 + (k & 1) + 3 * ((k >> 1) & 1) + 9 * (k >> 2)];
       if (number >= 0) around_[k] = tsdf.blocks()[static_cast<std::size_t>(number)].get();
     }
     for (int z = 0; z < kCorners; ++z) {

@@ -95,18 +95,13 @@ void FruitTsdf::add(const RgbdFrame& frame, const Image<std::uint8_t>& classes) 
   ++frames_;
   allocate(frame, classes);
   const View view(frame, classes, options_);
-  for (const auto& block : blocks_) {
-    if (in_sight(block->index, view)) fuse_block(*block, view);
-  }
+  for (const auto& block : blocks_) fuse_block(*block, view);
 }
 
-/// Whether the frame may tell anything of the block: it is in front of the camera, and some pixel
-/// on it sees as far.
-bool FruitTsdf::in_sight(const VoxelIndex& block, const View& view) const {
+/// Whether the frame may tell anything of what lies within `reach_m` of a place: it is in front of
+/// the camera, and some pixel on it sees as far.
+bool FruitTsdf::in_sight(const Vec3& c, double reach_m, const View& view) const {
   const CameraIntrinsics& k = view.frame.intrinsics;
-  const double side_m = kSide * options_.voxel_m;
-  const double reach_m = 0.5 * std::sqrt(3.0) * side_m;
-  const Vec3 c = view.T_camera_world * voxel_centre(block, side_m);
   if (c.z() < reach_m + 0.02 || c.z() > options_.max_range_m + reach_m) return false;
   const double u = k.fx * c.x() / c.z() + k.cx;
   const double v = k.fy * c.y() / c.z() + k.cy;
@@ -116,6 +111,21 @@ bool FruitTsdf::in_sight(const VoxelIndex& block, const View& view) const {
   if (u < -margin || v < -margin_v || u > k.width + margin || v > k.height + margin_v) return false;
   const double farthest = view.tiles.farthest(u - margin, v - margin_v, u + margin, v + margin_v);
   return farthest > 0.0 && farthest - (c.z() - reach_m) > -1.001 * options_.truncation_m;
+}
+
+/// An empty block, made known to those around it.
+int FruitTsdf::make_block(const VoxelIndex& index) {
+  const int number = static_cast<int>(blocks_.size());
+  number_of_.emplace(voxel_key(index), number);
+  Block& block = *blocks_.emplace_back(std::make_unique<Block>());
+  block.index = index;
+  for (std::size_t k = 0; k < block.around.size(); ++k) {
+    const int i = static_cast<int>(k);
+    const int other = block_at(index + VoxelIndex(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+    block.around[k] = other;
+    if (other >= 0) blocks_[static_cast<std::size_t>(other)]->around[26 - k] = number;
+  }
+  return number;
 }
 
 /// Makes the blocks within the truncation of fruit pixels.
@@ -155,16 +165,12 @@ void FruitTsdf::allocate(const RgbdFrame& frame, const Image<std::uint8_t>& clas
         for (int y = low.y(); y <= high.y(); ++y) {
           for (int w = low.z(); w <= high.z(); ++w) {
             const VoxelIndex index(x, y, w);
-            const auto [entry, is_new] =
-                number_of_.try_emplace(voxel_key(index), static_cast<int>(blocks_.size()));
-            if (is_new) {
-              blocks_.push_back(std::make_unique<Block>());
-              blocks_.back()->index = index;
-            }
-            Block& block = *blocks_[static_cast<std::size_t>(entry->second)];
+            int number = block_at(index);
+            if (number < 0) number = make_block(index);
+            Block& block = *blocks_[static_cast<std::size_t>(number)];
             if (block.fruit_frame == frames_) continue;
             block.fruit_frame = frames_;
-            seen_.push_back(entry->second);
+            seen_.push_back(number);
           }
         }
       }
@@ -173,17 +179,16 @@ void FruitTsdf::allocate(const RgbdFrame& frame, const Image<std::uint8_t>& clas
   std::sort(seen_.begin(), seen_.end());
 }
 
-/// Voxels of a row along x in the camera: which pixel sees each, along a ray that is `per_depth`
-/// long for each metre of depth. In arrays, so that the compiler takes four at a time.
-struct ProjectedRow {
-  std::array<float, FruitTsdf::kSide> z, u, v, per_depth;
+/// A block is looked at in eight cubes, each of which may be out of sight.
+constexpr int kCube = FruitTsdf::kSide / 2;
 
-  ProjectedRow(const Eigen::Vector3f& first, const Eigen::Vector3f& step,
-               const CameraIntrinsics& k) {
-    const auto fx = static_cast<float>(k.fx);
-    const auto fy = static_cast<float>(k.fy);
-    const auto cx = static_cast<float>(k.cx);
-    const auto cy = static_cast<float>(k.cy);
+/// Voxels of a row along x in the camera: which pixel sees each, along a ray that is `per_depth`
+/// long for each metre of depth. In arrays, so that the compiler takes all four at a time.
+struct ProjectedRow {
+  std::array<float, kCube> z, u, v, per_depth;
+
+  ProjectedRow(const Eigen::Vector3f& first, const Eigen::Vector3f& step, float fx, float fy,
+               float cx, float cy) {
     for (std::size_t i = 0; i < z.size(); ++i) {
       const auto along = static_cast<float>(i);
       z[i] = first.z() + along * step.z();
@@ -197,28 +202,50 @@ struct ProjectedRow {
 };
 
 void FruitTsdf::fuse_block(Block& block, const View& view) const {
+  const double reach_m = 0.5 * std::sqrt(3.0) * kSide * options_.voxel_m;
+  const Vec3 centre = view.T_camera_world * voxel_centre(block.index, kSide * options_.voxel_m);
+  if (!in_sight(centre, reach_m, view)) return;
+  const Eigen::Matrix3d to_cube = view.T_camera_world.linear() * (0.5 * kCube * options_.voxel_m);
+  for (int cube = 0; cube < 8; ++cube) {
+    const VoxelIndex upper(cube & 1, (cube >> 1) & 1, cube >> 2);
+    const Vec3 offset = 2.0 * upper.cast<double>() - Vec3::Ones();
+    if (in_sight(centre + to_cube * offset, 0.5 * reach_m, view)) {
+      fuse_cube(block, kCube * upper, view);
+    }
+  }
+}
+
+void FruitTsdf::fuse_cube(Block& block, const VoxelIndex& first, const View& view) const {
   const CameraIntrinsics& k = view.frame.intrinsics;
   const DepthImage& depths = view.frame.depth;
   const auto width = static_cast<float>(k.width);
   const auto height = static_cast<float>(k.height);
+  const auto fx = static_cast<float>(k.fx);
+  const auto fy = static_cast<float>(k.fy);
+  const auto cx = static_cast<float>(k.cx);
+  const auto cy = static_cast<float>(k.cy);
   const Eigen::Vector3f origin =
-      (view.T_camera_world * voxel_centre(block.index * kSide, options_.voxel_m)).cast<float>();
-  for (int row = 0; row < kSide * kSide; ++row) {
-    const Eigen::Vector3f first = origin + static_cast<float>(row % kSide) * view.step.col(1) +
-                                  static_cast<float>(row / kSide) * view.step.col(2);
-    const ProjectedRow p(first, view.step.col(0), k);
-    for (std::size_t x = 0; x < kSide; ++x) {
-      if (!(p.z[x] > 0.05F)) continue;
-      if (!(p.u[x] >= 0.0F && p.v[x] >= 0.0F && p.u[x] < width && p.v[x] < height)) continue;
-      const int u = static_cast<int>(p.u[x]);
-      const int v = static_cast<int>(p.v[x]);
+      (view.T_camera_world * voxel_centre(block.index * kSide + first, options_.voxel_m))
+          .cast<float>();
+  for (int row = 0; row < kCube * kCube; ++row) {
+    const int y = row % kCube;
+    const int z = row / kCube;
+    const ProjectedRow p(origin + static_cast<float>(y) * view.step.col(1) +
+                             static_cast<float>(z) * view.step.col(2),
+                         view.step.col(0), fx, fy, cx, cy);
+    const std::size_t voxel = offset(first.x(), first.y() + y, first.z() + z);
+    for (std::size_t i = 0; i < kCube; ++i) {
+      if (!(p.z[i] > 0.05F)) continue;
+      if (!(p.u[i] >= 0.0F && p.v[i] >= 0.0F && p.u[i] < width && p.v[i] < height)) continue;
+      const int u = static_cast<int>(p.u[i]);
+      const int v = static_cast<int>(p.v[i]);
       const float depth = depths.at(u, v);
       if (!(depth > 0.0F)) continue;
-      const float distance = (depth - p.z[x]) * p.per_depth[x];
+      const float distance = (depth - p.z[i]) * p.per_depth[i];
       if (distance < -view.truncation) continue;
       if (depth > view.max_range && distance < view.truncation) continue;
       if (distance < view.truncation && at_depth_edge(depths, u, v, view.max_step)) continue;
-      fuse_voxel(block, static_cast<std::size_t>(row) * kSide + x, distance, p.z[x], u, v, view);
+      fuse_voxel(block, voxel + i, distance, p.z[i], u, v, view);
     }
   }
 }
@@ -265,7 +292,7 @@ std::vector<int> FruitTsdf::take_changed() {
   for (const auto& block : blocks_) {
     for (int k = 0; k < 8; ++k) {
       if ((block->changed >> k & 1) == 0) continue;
-      const int number = block_at(block->index - VoxelIndex(k & 1, (k >> 1) & 1, k >> 2));
+      const int number = block->around[13 - (k & 1) - 3 * ((k >> 1) & 1) - 9 * (k >> 2)];
       if (number >= 0) numbers.push_back(number);
     }
     block->changed = 0;

@@ -56,6 +56,8 @@ class FruitTsdf {
     /// x (k & 1), y (k & 2), z (k & 4), whose upper cells have corners here; bit 0 is this one.
     std::uint8_t changed = 0;
     int fruit_frame = -1;  ///< number of the last frame with a fruit pixel in it
+    /// Numbers of the 27 blocks around and with this one, x fastest; −1: there is none.
+    std::array<int, 27> around{};
   };
 
   explicit FruitTsdf(const TsdfOptions& options);
@@ -82,8 +84,10 @@ class FruitTsdf {
  private:
   struct View;
   void allocate(const RgbdFrame& frame, const Image<std::uint8_t>& classes);
-  [[nodiscard]] bool in_sight(const VoxelIndex& block, const View& view) const;
+  int make_block(const VoxelIndex& index);
+  [[nodiscard]] bool in_sight(const Vec3& centre_camera, double reach_m, const View& view) const;
   void fuse_block(Block& block, const View& view) const;
+  void fuse_cube(Block& block, const VoxelIndex& first, const View& view) const;
   void fuse_voxel(Block& block, std::size_t voxel, float distance, float depth, int u, int v,
                   const View& view) const;
 
