@@ -43,6 +43,35 @@ float weight_at(float depth_m) {
 
 }  // namespace
 
+/// Depths as voxels ask for them: negative where the pixel is at an edge or too far away to show a
+/// surface, so that it only tells what is free before it; one pixel more at the end with none.
+std::vector<float> marked_depths(const DepthImage& depth, float max_range, float max_step) {
+  const int width = depth.width();
+  const int height = depth.height();
+  std::vector<float> marked(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) + 1);
+  const float* const all = depth.pixels().data();
+  for (int v = 0; v < height; ++v) {
+    const float* const row = all + std::ptrdiff_t{v} * width;
+    const float* const up = v > 0 ? row - width : row;
+    const float* const down = v + 1 < height ? row + width : row;
+    float* const out = marked.data() + std::ptrdiff_t{v} * width;
+    const bool border = v == 0 || v + 1 == height;
+    // No branches and no calls: the compiler takes four pixels at a time.
+    for (int u = 1; u + 1 < width; ++u) {
+      const float z = row[u];
+      const auto step = [&](float near) {
+        return static_cast<int>(near > 0.0F) & static_cast<int>(std::abs(near - z) > max_step);
+      };
+      const int edge = static_cast<int>(border) | static_cast<int>(z > max_range) |
+                       step(row[u - 1]) | step(row[u + 1]) | step(up[u]) | step(down[u]);
+      out[u] = edge != 0 ? -z : z;
+    }
+    out[0] = -row[0];
+    out[width - 1] = -row[width - 1];
+  }
+  return marked;
+}
+
 /// A frame with what all blocks want to know of it.
 struct FruitTsdf::View {
   View(const RgbdFrame& f, const Image<std::uint8_t>& c, const TsdfOptions& o)
@@ -51,10 +80,10 @@ struct FruitTsdf::View {
         T_camera_world(f.T_world_camera.inverse()),
         step((T_camera_world.linear() * o.voxel_m).cast<float>()),
         tiles(f.depth),
+        depths(marked_depths(f.depth, static_cast<float>(o.max_range_m),
+                             static_cast<float>(o.max_depth_step_m))),
         truncation(static_cast<float>(o.truncation_m)),
         max_weight(static_cast<float>(o.max_weight)),
-        max_range(static_cast<float>(o.max_range_m)),
-        max_step(static_cast<float>(o.max_depth_step_m)),
         near_surface(static_cast<float>(1.5 * o.voxel_m)),
         changed(static_cast<float>(o.changed_m)) {}
 
@@ -63,7 +92,8 @@ struct FruitTsdf::View {
   Pose T_camera_world;
   Eigen::Matrix3f step;  // from voxel to voxel along x, y, z, camera frame
   DepthTiles tiles;
-  float truncation, max_weight, max_range, max_step, near_surface, changed;
+  std::vector<float> depths;
+  float truncation, max_weight, near_surface, changed;
 };
 
 Expected<void> TsdfOptions::validate() const {
@@ -182,21 +212,44 @@ void FruitTsdf::allocate(const RgbdFrame& frame, const Image<std::uint8_t>& clas
 /// A block is looked at in eight cubes, each of which may be out of sight.
 constexpr int kCube = FruitTsdf::kSide / 2;
 
-/// Voxels of a row along x in the camera: which pixel sees each, along a ray that is `per_depth`
-/// long for each metre of depth. In arrays, so that the compiler takes all four at a time.
-struct ProjectedRow {
-  std::array<float, kCube> z, u, v, per_depth;
+/// The camera in single precision.
+struct FlatCamera {
+  float fx, fy, cx, cy, width, height;
+  int columns;
+  int no_pixel;  ///< the one after all others
 
-  ProjectedRow(const Eigen::Vector3f& first, const Eigen::Vector3f& step, float fx, float fy,
-               float cx, float cy) {
-    for (std::size_t i = 0; i < z.size(); ++i) {
+  explicit FlatCamera(const CameraIntrinsics& k)
+      : fx(static_cast<float>(k.fx)),
+        fy(static_cast<float>(k.fy)),
+        cx(static_cast<float>(k.cx)),
+        cy(static_cast<float>(k.cy)),
+        width(static_cast<float>(k.width)),
+        height(static_cast<float>(k.height)),
+        columns(k.width),
+        no_pixel(k.width * k.height) {}
+};
+
+/// Four voxels along x as the camera sees them. In arrays and without branches, so that the
+/// compiler takes all four at a time.
+struct ProjectedRow {
+  std::array<float, kCube> z;          ///< depth of the voxel
+  std::array<float, kCube> per_depth;  ///< length of its ray for each metre of depth
+  std::array<int, kCube> pixel;        ///< that sees it, row by row; FlatCamera::no_pixel: none
+
+  ProjectedRow(const Eigen::Vector3f& first, const Eigen::Vector3f& step, const FlatCamera& k) {
+    for (std::size_t i = 0; i < kCube; ++i) {
       const auto along = static_cast<float>(i);
       z[i] = first.z() + along * step.z();
       const float slope_u = (first.x() + along * step.x()) / z[i];
       const float slope_v = (first.y() + along * step.y()) / z[i];
-      u[i] = fx * slope_u + cx;
-      v[i] = fy * slope_v + cy;
       per_depth[i] = std::sqrt(1.0F + slope_u * slope_u + slope_v * slope_v);
+      const float u = k.fx * slope_u + k.cx;
+      const float v = k.fy * slope_v + k.cy;
+      const bool in_image =
+          (z[i] > 0.05F) & (u >= 0.0F) & (v >= 0.0F) & (u < k.width) & (v < k.height);
+      const int column = static_cast<int>(in_image ? u : 0.0F);
+      const int row = static_cast<int>(in_image ? v : 0.0F);
+      pixel[i] = in_image ? row * k.columns + column : k.no_pixel;
     }
   }
 };
@@ -216,42 +269,37 @@ void FruitTsdf::fuse_block(Block& block, const View& view) const {
 }
 
 void FruitTsdf::fuse_cube(Block& block, const VoxelIndex& first, const View& view) const {
-  const CameraIntrinsics& k = view.frame.intrinsics;
-  const DepthImage& depths = view.frame.depth;
-  const auto width = static_cast<float>(k.width);
-  const auto height = static_cast<float>(k.height);
-  const auto fx = static_cast<float>(k.fx);
-  const auto fy = static_cast<float>(k.fy);
-  const auto cx = static_cast<float>(k.cx);
-  const auto cy = static_cast<float>(k.cy);
+  const FlatCamera camera(view.frame.intrinsics);
+  const float* const depths = view.depths.data();
   const Eigen::Vector3f origin =
       (view.T_camera_world * voxel_centre(block.index * kSide + first, options_.voxel_m))
           .cast<float>();
+  const Eigen::Vector3f along_x = view.step.col(0);
   for (int row = 0; row < kCube * kCube; ++row) {
     const int y = row % kCube;
     const int z = row / kCube;
     const ProjectedRow p(origin + static_cast<float>(y) * view.step.col(1) +
                              static_cast<float>(z) * view.step.col(2),
-                         view.step.col(0), fx, fy, cx, cy);
+                         along_x, camera);
+    std::array<float, kCube> distance;
+    std::array<int, kCube> taken;
+    for (std::size_t i = 0; i < kCube; ++i) {
+      const float marked = depths[p.pixel[i]];
+      distance[i] = (std::abs(marked) - p.z[i]) * p.per_depth[i];
+      // A marked pixel tells of free space only.
+      const float least = marked < 0.0F ? view.truncation : -view.truncation;
+      taken[i] = static_cast<int>(marked != 0.0F) & static_cast<int>(distance[i] >= least);
+    }
+    if ((taken[0] | taken[1] | taken[2] | taken[3]) == 0) continue;
     const std::size_t voxel = offset(first.x(), first.y() + y, first.z() + z);
     for (std::size_t i = 0; i < kCube; ++i) {
-      if (!(p.z[i] > 0.05F)) continue;
-      if (!(p.u[i] >= 0.0F && p.v[i] >= 0.0F && p.u[i] < width && p.v[i] < height)) continue;
-      const int u = static_cast<int>(p.u[i]);
-      const int v = static_cast<int>(p.v[i]);
-      const float depth = depths.at(u, v);
-      if (!(depth > 0.0F)) continue;
-      const float distance = (depth - p.z[i]) * p.per_depth[i];
-      if (distance < -view.truncation) continue;
-      if (depth > view.max_range && distance < view.truncation) continue;
-      if (distance < view.truncation && at_depth_edge(depths, u, v, view.max_step)) continue;
-      fuse_voxel(block, voxel + i, distance, p.z[i], u, v, view);
+      if (taken[i] != 0) fuse_voxel(block, voxel + i, distance[i], p.z[i], p.pixel[i], view);
     }
   }
 }
 
-/// `distance` from the voxel, at depth z, to the surface that pixel (u, v) sees.
-void FruitTsdf::fuse_voxel(Block& block, std::size_t voxel, float distance, float z, int u, int v,
+/// `distance` from the voxel, at depth z, to the surface that the pixel sees.
+void FruitTsdf::fuse_voxel(Block& block, std::size_t voxel, float distance, float z, int pixel,
                            const View& view) const {
   const float weight = weight_at(z);
   const float before = block.distance_m[voxel];
@@ -276,10 +324,10 @@ void FruitTsdf::fuse_voxel(Block& block, std::size_t voxel, float distance, floa
   }
   if (std::abs(distance) > view.near_surface) return;
   TsdfLooks& looks = block.looks[voxel];
-  const std::uint8_t what = view.classes.at(u, v);
+  const std::uint8_t what = view.classes.pixels()[static_cast<std::size_t>(pixel)];
   looks.votes[std::min<std::size_t>(what, kPixelLabels - 1)] += weight;
   if (what == 0 || view.frame.color.empty()) return;
-  const Rgb& c = view.frame.color.at(u, v);
+  const Rgb& c = view.frame.color.pixels()[static_cast<std::size_t>(pixel)];
   looks.color_weight += weight;
   const float share = weight / looks.color_weight;
   looks.color[0] += share * (static_cast<float>(c.r) - looks.color[0]);
