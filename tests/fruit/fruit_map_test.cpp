@@ -106,6 +106,36 @@ TEST(FruitMap, LeavesOutClipsLabelsStringsPipesAndWhatLiesOnTheFloor) {
   }
 }
 
+TEST(FruitMap, PutsOffWhatIsTooMuchForOneUpdateAndMissesNothingInTheEnd) {
+  std::vector<Body> bodies;
+  for (int i = 0; i < 4; ++i) bodies.push_back(pepper(kFruit + Vec3(0.0, 0.16 * (i - 1.5), 0.0)));
+  FruitMapOptions hurried;
+  hurried.update_points = 1;  // one known patch at a time
+  FruitMap map(hurried);
+  FruitMap patient;
+  for (int frame = 0; frame < 3; ++frame) {
+    View view = look(bodies, kFront + Vec3(0.0, 0.1 * frame, 0.0), kFruit);
+    view.frame.time_s = frame;
+    map.add(view.frame, view.fruit);
+    patient.add(view.frame, view.fruit);
+    map.update();
+    patient.update();
+    EXPECT_EQ(map.fruits().size(), 4U) << frame;  // new fruits never wait
+  }
+  EXPECT_LT(map.fits(), patient.fits());
+  map.update_all();
+  patient.update_all();
+  EXPECT_EQ(map.waiting(), 0);
+  ASSERT_EQ(map.fruits().size(), patient.fruits().size());
+  for (const FruitEstimate& f : map.fruits()) {
+    const auto same = [&](const FruitEstimate& other) {
+      return other.centre == f.centre && other.volume_cm3 == f.volume_cm3 &&
+             other.views == f.views && other.first_seen_s == f.first_seen_s;
+    };
+    EXPECT_TRUE(std::any_of(patient.fruits().begin(), patient.fruits().end(), same)) << f.id;
+  }
+}
+
 TEST(FruitMap, KeepsTheIdOfAFruitWhileMoreOfItIsSeen) {
   const Vec3 other = kFruit + Vec3(0.0, 0.14, 0.0);
   const std::vector<Body> bodies = {pepper(kFruit), pepper(other)};

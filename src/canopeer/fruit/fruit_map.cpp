@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <tuple>
 #include <unordered_map>
 
@@ -93,7 +94,7 @@ struct FruitMap::State {
   [[nodiscard]] bool counts(const SurfaceVertex& v) const {
     return v.fruit_share >= options.min_fruit_share;
   }
-  std::vector<int> update_surface();
+  std::vector<int> update_surface(int max_blocks);
   [[nodiscard]] std::vector<Patch> patches_around(const std::vector<int>& changed) const;
   void drop_odd_pieces(Patch& patch) const;
   void solve(const Patch& patch, std::vector<KnownFruit>& found) const;
@@ -107,8 +108,8 @@ struct FruitMap::State {
 };
 
 /// The numbers of the blocks whose surface is another now.
-std::vector<int> FruitMap::State::update_surface() {
-  std::vector<int> changed = surface.update();
+std::vector<int> FruitMap::State::update_surface(int max_blocks) {
+  std::vector<int> changed = surface.update(max_blocks);
   fruit_block.resize(surface.tsdf().blocks().size(), 0);
   for (const int block : changed) {
     const auto& vertices = surface.vertices(block);
@@ -283,9 +284,13 @@ void FruitMap::add(const RgbdFrame& frame, const Mask& fruit) {
       {frame.time_s, state_->surface.tsdf().seen_in_last_frame(), state_->updates + 1});
 }
 
-void FruitMap::update() { state_->update(state_->update_surface(), false); }
+void FruitMap::update() {
+  state_->update(state_->update_surface(state_->options.update_blocks), false);
+}
 
-void FruitMap::update_all() { state_->update(state_->update_surface(), true); }
+void FruitMap::update_all() {
+  state_->update(state_->update_surface(std::numeric_limits<int>::max()), true);
+}
 
 /// Of the patches around what has changed those whose turn it is. `concerned`: their blocks, and
 /// changed ones where no fruit is left.
@@ -311,8 +316,10 @@ std::vector<Patch> FruitMap::State::take_patches(const std::vector<int>& changed
   std::size_t taken = 0;
   std::size_t points = 0;
   for (; taken < patches.size(); ++taken) {
+    if (!patches[taken].known) continue;
+    const bool is_first = points == 0;
     points += patches[taken].surface.size();
-    if (!all && taken > 0 && points > static_cast<std::size_t>(options.update_points)) break;
+    if (!all && !is_first && points > static_cast<std::size_t>(options.update_points)) break;
   }
   std::vector<char> left(waits_since.size(), 0);
   for (std::size_t i = taken; i < patches.size(); ++i) {

@@ -27,9 +27,9 @@ class FruitMap {
   /// Takes in a frame; `fruit` has its size and holds 0 where there is none, else the PixelLabel.
   void add(const RgbdFrame& frame, const Mask& fruit);
 
-  /// Re-estimates the fruits near what has changed, as many as options.update_points allows: new
-  /// ones first, then those that have waited longest. Ids are given once and follow a fruit by its
-  /// surface from update to update.
+  /// Estimates the fruits near what has changed: all new ones, and of those known before as many as
+  /// options.update_points allows, the longest waiting first. Ids are given once and follow a fruit
+  /// by its surface from update to update.
   void update();
   /// The same for all there is, nothing left waiting, shapes fitted as if for the first time: what
   /// a run ends with.
@@ -43,7 +43,7 @@ class FruitMap {
   [[nodiscard]] FruitEvidence evidence(std::size_t i) const;
   /// Merges and splits of ids since the beginning.
   [[nodiscard]] const std::vector<IdChange>& id_changes() const;
-  /// Blocks of surface that have changed and wait for an update.
+  /// Blocks of new surface that wait for an update.
   [[nodiscard]] int waiting() const;
   /// Shapes fitted since the beginning.
   [[nodiscard]] int fits() const;

@@ -26,7 +26,9 @@ Expected<void> FruitMapOptions::validate() const {
   if (!(min_centre_distance_m > 0.0)) return fail("min_centre_distance_m must be positive");
   if (!(id_distance_m > 0.0)) return fail("id_distance_m must be positive");
   if (fit_points < 20) return fail("fit_points must be at least 20");
-  if (update_points < 1) return fail("update_points must be at least 1");
+  if (update_points < 1 || update_blocks < 1) {
+    return fail("update_points and update_blocks must be at least 1");
+  }
   if (min_confidence < 0.0 || min_confidence > 1.0) return fail("min_confidence must be in [0, 1]");
   return {};
 }

@@ -35,9 +35,12 @@ struct FruitMapOptions {
   // Shape and report.
   int fit_points = 160;  ///< of a fruit's surface, evenly, for its shape
   ConfidenceModel confidence;
-  /// Surface points looked at in one update, so that a frame on which much has changed holds nobody
-  /// up; what is left waits for the next. New fruits come first, and one patch of surface at least.
-  int update_points = 3000;
+  /// In one update so much known surface is drawn anew (blocks) and looked at again (points; one
+  /// patch at least), so that a frame on which much has changed holds nobody up; what is left waits
+  /// for the next. New surface and new fruits never wait. By default there is no bound.
+  int update_blocks = kNoBound;
+  int update_points = kNoBound;
+  static constexpr int kNoBound = 100000000;
   double min_confidence = 0.5;  ///< less likely fruits are not reported
   std::vector<PlantRow> rows;   ///< for places in rows; none: no places
 

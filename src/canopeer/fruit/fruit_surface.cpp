@@ -162,9 +162,22 @@ std::vector<SurfaceVertex> FruitSurface::extract(const FruitTsdf::Block& block) 
   return vertices;
 }
 
-std::vector<int> FruitSurface::update() {
-  const std::vector<int> remade = tsdf_.take_changed();
+std::vector<int> FruitSurface::update(int max_blocks) {
   vertices_.resize(tsdf_.blocks().size());
+  std::vector<char> waits(vertices_.size(), 0);
+  for (const int number : waiting_) waits[static_cast<std::size_t>(number)] = 1;
+  for (const int number : tsdf_.take_changed()) {
+    if (waits[static_cast<std::size_t>(number)] == 0) waiting_.push_back(number);
+  }
+  const auto is_new = [&](int number) {
+    return vertices_[static_cast<std::size_t>(number)].empty();
+  };
+  const auto old = std::stable_partition(waiting_.begin(), waiting_.end(), is_new);
+  const auto count =
+      old - waiting_.begin() + std::min<std::ptrdiff_t>(waiting_.end() - old, max_blocks);
+  std::vector<int> remade(waiting_.begin(), waiting_.begin() + count);
+  waiting_.erase(waiting_.begin(), waiting_.begin() + count);
+  std::sort(remade.begin(), remade.end());
   for (const int number : remade) {
     vertices_[static_cast<std::size_t>(number)] =
         extract(*tsdf_.blocks()[static_cast<std::size_t>(number)]);

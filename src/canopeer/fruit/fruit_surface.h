@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "canopeer/fruit/fruit_tsdf.h"
@@ -35,8 +36,9 @@ class FruitSurface {
     tsdf_.add(frame, classes);
   }
 
-  /// Makes the vertices of changed blocks anew; their numbers, ascending.
-  std::vector<int> update();
+  /// Makes the vertices of changed blocks: of all that had none, and of the others `max_blocks` at
+  /// most in the order they changed; the rest waits. Their numbers, ascending.
+  std::vector<int> update(int max_blocks = std::numeric_limits<int>::max());
 
   [[nodiscard]] const FruitTsdf& tsdf() const { return tsdf_; }
   [[nodiscard]] const std::vector<SurfaceVertex>& vertices(int block) const {
@@ -50,6 +52,7 @@ class FruitSurface {
 
   FruitTsdf tsdf_;
   std::vector<std::vector<SurfaceVertex>> vertices_;  // by block number
+  std::vector<int> waiting_;                          // blocks that have changed
 };
 
 }  // namespace canopeer

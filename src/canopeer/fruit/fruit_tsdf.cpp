@@ -44,17 +44,19 @@ float weight_at(float depth_m) {
 }  // namespace
 
 /// Depths as voxels ask for them: negative where the pixel is at an edge or too far away to show a
-/// surface, so that it only tells what is free before it; one pixel more at the end with none.
+/// surface, so that it only tells what is free before it; with a border of one pixel without any,
+/// so that voxels just outside of the image need no question of their own.
 std::vector<float> marked_depths(const DepthImage& depth, float max_range, float max_step) {
   const int width = depth.width();
   const int height = depth.height();
-  std::vector<float> marked(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) + 1);
+  const std::ptrdiff_t stride = width + 2;
+  std::vector<float> marked(static_cast<std::size_t>(stride * (height + 2)), 0.0F);
   const float* const all = depth.pixels().data();
   for (int v = 0; v < height; ++v) {
     const float* const row = all + std::ptrdiff_t{v} * width;
     const float* const up = v > 0 ? row - width : row;
     const float* const down = v + 1 < height ? row + width : row;
-    float* const out = marked.data() + std::ptrdiff_t{v} * width;
+    float* const out = marked.data() + (v + 1) * stride + 1;
     const bool border = v == 0 || v + 1 == height;
     // No branches and no calls: the compiler takes four pixels at a time.
     for (int u = 1; u + 1 < width; ++u) {
@@ -212,45 +214,26 @@ void FruitTsdf::allocate(const RgbdFrame& frame, const Image<std::uint8_t>& clas
 /// A block is looked at in eight cubes, each of which may be out of sight.
 constexpr int kCube = FruitTsdf::kSide / 2;
 
-/// The camera in single precision.
-struct FlatCamera {
-  float fx, fy, cx, cy, width, height;
-  int columns;
-  int no_pixel;  ///< the one after all others
-
-  explicit FlatCamera(const CameraIntrinsics& k)
-      : fx(static_cast<float>(k.fx)),
-        fy(static_cast<float>(k.fy)),
-        cx(static_cast<float>(k.cx)),
-        cy(static_cast<float>(k.cy)),
-        width(static_cast<float>(k.width)),
-        height(static_cast<float>(k.height)),
-        columns(k.width),
-        no_pixel(k.width * k.height) {}
-};
-
-/// Four voxels along x as the camera sees them. In arrays and without branches, so that the
-/// compiler takes all four at a time.
+/// Four voxels along x as the camera sees them, all at once.
 struct ProjectedRow {
-  std::array<float, kCube> z;          ///< depth of the voxel
-  std::array<float, kCube> per_depth;  ///< length of its ray for each metre of depth
-  std::array<int, kCube> pixel;        ///< that sees it, row by row; FlatCamera::no_pixel: none
+  Eigen::Array4f z;          ///< depth of the voxel
+  Eigen::Array4f per_depth;  ///< length of its ray for each metre of depth
+  Eigen::Array4i u, v;       ///< pixel that sees it, counted from the border around the image
 
-  ProjectedRow(const Eigen::Vector3f& first, const Eigen::Vector3f& step, const FlatCamera& k) {
-    for (std::size_t i = 0; i < kCube; ++i) {
-      const auto along = static_cast<float>(i);
-      z[i] = first.z() + along * step.z();
-      const float slope_u = (first.x() + along * step.x()) / z[i];
-      const float slope_v = (first.y() + along * step.y()) / z[i];
-      per_depth[i] = std::sqrt(1.0F + slope_u * slope_u + slope_v * slope_v);
-      const float u = k.fx * slope_u + k.cx;
-      const float v = k.fy * slope_v + k.cy;
-      const bool in_image =
-          (z[i] > 0.05F) & (u >= 0.0F) & (v >= 0.0F) & (u < k.width) & (v < k.height);
-      const int column = static_cast<int>(in_image ? u : 0.0F);
-      const int row = static_cast<int>(in_image ? v : 0.0F);
-      pixel[i] = in_image ? row * k.columns + column : k.no_pixel;
-    }
+  /// `first`, `step`: of the first voxel and to the next, in front of the camera.
+  ProjectedRow(const Eigen::Vector3f& first, const Eigen::Vector3f& step,
+               const CameraIntrinsics& k) {
+    const Eigen::Array4f along(0.0F, 1.0F, 2.0F, 3.0F);
+    z = first.z() + along * step.z();
+    const Eigen::Array4f slope_u = (first.x() + along * step.x()) / z;
+    const Eigen::Array4f slope_v = (first.y() + along * step.y()) / z;
+    per_depth = (1.0F + slope_u * slope_u + slope_v * slope_v).sqrt();
+    const Eigen::Array4f u_real =
+        static_cast<float>(k.fx) * slope_u + (static_cast<float>(k.cx) + 1.0F);
+    const Eigen::Array4f v_real =
+        static_cast<float>(k.fy) * slope_v + (static_cast<float>(k.cy) + 1.0F);
+    u = u_real.max(0.0F).min(static_cast<float>(k.width + 1)).cast<int>();
+    v = v_real.max(0.0F).min(static_cast<float>(k.height + 1)).cast<int>();
   }
 };
 
@@ -269,38 +252,36 @@ void FruitTsdf::fuse_block(Block& block, const View& view) const {
 }
 
 void FruitTsdf::fuse_cube(Block& block, const VoxelIndex& first, const View& view) const {
-  const FlatCamera camera(view.frame.intrinsics);
+  const CameraIntrinsics& k = view.frame.intrinsics;
   const float* const depths = view.depths.data();
   const Eigen::Vector3f origin =
       (view.T_camera_world * voxel_centre(block.index * kSide + first, options_.voxel_m))
           .cast<float>();
-  const Eigen::Vector3f along_x = view.step.col(0);
   for (int row = 0; row < kCube * kCube; ++row) {
     const int y = row % kCube;
     const int z = row / kCube;
     const ProjectedRow p(origin + static_cast<float>(y) * view.step.col(1) +
                              static_cast<float>(z) * view.step.col(2),
-                         along_x, camera);
-    std::array<float, kCube> distance;
-    std::array<int, kCube> taken;
-    for (std::size_t i = 0; i < kCube; ++i) {
-      const float marked = depths[p.pixel[i]];
-      distance[i] = (std::abs(marked) - p.z[i]) * p.per_depth[i];
-      // A marked pixel tells of free space only.
-      const float least = marked < 0.0F ? view.truncation : -view.truncation;
-      taken[i] = static_cast<int>(marked != 0.0F) & static_cast<int>(distance[i] >= least);
-    }
-    if ((taken[0] | taken[1] | taken[2] | taken[3]) == 0) continue;
+                         view.step.col(0), k);
+    const Eigen::Array4i pixel = p.v * (k.width + 2) + p.u;
+    const Eigen::Array4f marked(depths[pixel[0]], depths[pixel[1]], depths[pixel[2]],
+                                depths[pixel[3]]);
+    const Eigen::Array4f distance = (marked.abs() - p.z) * p.per_depth;
+    if (distance.maxCoeff() < -view.truncation) continue;
     const std::size_t voxel = offset(first.x(), first.y() + y, first.z() + z);
-    for (std::size_t i = 0; i < kCube; ++i) {
-      if (taken[i] != 0) fuse_voxel(block, voxel + i, distance[i], p.z[i], p.pixel[i], view);
+    for (int i = 0; i < kCube; ++i) {
+      // A marked pixel tells of free space only, one without depth of nothing.
+      if (distance[i] < (marked[i] < 0.0F ? view.truncation : -view.truncation)) continue;
+      if (marked[i] == 0.0F) continue;
+      fuse_voxel(block, voxel + static_cast<std::size_t>(i), distance[i], p.z[i],
+                 static_cast<std::size_t>((p.v[i] - 1) * k.width + p.u[i] - 1), view);
     }
   }
 }
 
 /// `distance` from the voxel, at depth z, to the surface that the pixel sees.
-void FruitTsdf::fuse_voxel(Block& block, std::size_t voxel, float distance, float z, int pixel,
-                           const View& view) const {
+void FruitTsdf::fuse_voxel(Block& block, std::size_t voxel, float distance, float z,
+                           std::size_t pixel, const View& view) const {
   const float weight = weight_at(z);
   const float before = block.distance_m[voxel];
   const float weight_before = block.weight[voxel];
@@ -324,10 +305,10 @@ void FruitTsdf::fuse_voxel(Block& block, std::size_t voxel, float distance, floa
   }
   if (std::abs(distance) > view.near_surface) return;
   TsdfLooks& looks = block.looks[voxel];
-  const std::uint8_t what = view.classes.pixels()[static_cast<std::size_t>(pixel)];
+  const std::uint8_t what = view.classes.pixels()[pixel];
   looks.votes[std::min<std::size_t>(what, kPixelLabels - 1)] += weight;
   if (what == 0 || view.frame.color.empty()) return;
-  const Rgb& c = view.frame.color.pixels()[static_cast<std::size_t>(pixel)];
+  const Rgb& c = view.frame.color.pixels()[pixel];
   looks.color_weight += weight;
   const float share = weight / looks.color_weight;
   looks.color[0] += share * (static_cast<float>(c.r) - looks.color[0]);

@@ -88,7 +88,7 @@ class FruitTsdf {
   [[nodiscard]] bool in_sight(const Vec3& centre_camera, double reach_m, const View& view) const;
   void fuse_block(Block& block, const View& view) const;
   void fuse_cube(Block& block, const VoxelIndex& first, const View& view) const;
-  void fuse_voxel(Block& block, std::size_t voxel, float distance, float z, int pixel,
+  void fuse_voxel(Block& block, std::size_t voxel, float distance, float z, std::size_t pixel,
                   const View& view) const;
 
   TsdfOptions options_;
