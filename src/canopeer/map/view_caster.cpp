@@ -17,7 +17,7 @@ constexpr VoxelMask kNothing{};
 std::size_t unknown_voxels(const VoxelWalk& walk, double length_m, double max_unknown_m) {
   const double all = walk.steps + 1.0;
   return static_cast<std::size_t>(
-      max_unknown_m < length_m ? std::ceil(all * max_unknown_m / length_m) : all);
+      max_unknown_m < length_m ? std::max(1.0, std::ceil(all * max_unknown_m / length_m)) : all);
 }
 
 void fetch_early([[maybe_unused]] const VoxelMask& mask) {
