@@ -17,35 +17,39 @@ struct SensorNoiseOptions {
   /// four faults of the disparity.
   double baseline_m = 0.0;
   /// Axial noise: the standard deviation of depth is depth² · this / (fx · baseline), the law of
-  /// stereo (Khoshelham & Oude Elberink, Sensors 12, 2012, eq. 9; for this family of cameras
-  /// Grunnet-Jepsen, Sweetser & Woodfill, "Best-known methods for tuning Intel RealSense D400",
-  /// 2018, who see about 0.08 px on well-textured walls).
+  /// stereo (Khoshelham & Oude Elberink, "Accuracy and resolution of Kinect depth data for indoor
+  /// mapping applications", Sensors 12(2), 2012; for this family of cameras Grunnet-Jepsen,
+  /// Sweetser & Woodfill, "Best-known-methods for tuning Intel RealSense D400 depth cameras for
+  /// best performance", Intel white paper, who reckon with about 0.08 px on well-textured walls).
   double disparity_noise_px = 0.0;
   /// Matching windows make neighbours err alike: the noise is interpolated between independent
   /// values this far apart (our choice of form). ≤ 1: every pixel for itself.
   double correlation_px = 1.0;
-  /// Disparities come in steps (ibid.: 1/32 px); 0: any value.
+  /// Disparities come in steps (of 1/32 px from these cameras: librealsense reads five fractional
+  /// bits); 0: any value.
   double disparity_step_px = 0.0;
   /// No return where something nearer stands between the surface and the second imager, left of a
-  /// foreground object (Khoshelham & Oude Elberink 2012, §3.2).
+  /// foreground object (the "shadow" that Khoshelham & Oude Elberink describe).
   bool baseline_shadow = false;
 
-  /// Lateral noise: edges waver by pixels drawn with this standard deviation (Nguyen, Izadi &
-  /// Lovell, "Modeling Kinect sensor noise", 3DIMPVT 2012: 0.8 px; applied as by Handa et al.,
-  /// "A benchmark for RGB-D visual odometry", ICRA 2014).
+  /// Lateral noise: edges waver by pixels drawn with this standard deviation, after Nguyen, Izadi &
+  /// Lovell, "Modeling Kinect sensor noise for improved 3D reconstruction and tracking", 3DIMPVT
+  /// 2012: 0.8 px + 0.035 px · θ / (π/2 − θ) at incidence θ. The second term, 0.16 px at 74°, is
+  /// left out: what grazes more is lost here. Applied as shifts of the pixel looked up, as by Handa
+  /// et al., "A benchmark for RGB-D visual odometry, 3D reconstruction and SLAM", ICRA 2014.
   double lateral_px = 0.0;
   /// Depth comes in multiples of this, m.
   double depth_step_m = 0.0;
   /// Grazing surfaces give no return: certain below the first, never above the second cosine of
-  /// the angle of incidence, linear between (Nguyen et al. 2012 got no reliable depth beyond 60 to
-  /// 70°). Both 0: off.
+  /// the angle of incidence, linear between. The form is ours, after the steep rise of noise that
+  /// Nguyen et al. 2012 found beyond some 60°. Both 0: off.
   double lost_below_cosine = 0.0;
   double kept_above_cosine = 0.0;
   /// Depth edges: neighbours farther apart than this share of their depth.
   double edge_step = 0.02;
   /// At an edge a pixel is lost with the first probability, else a flying pixel somewhere between
-  /// both surfaces with the second (Sabov & Krüger, "Identification and correction of flying
-  /// pixels in range camera data", SCCG 2008).
+  /// both surfaces with the second (what they are: Sabov & Krüger, "Identification and correction
+  /// of flying pixels in range camera data", SCCG 2008; how often is our estimate).
   double lost_at_edge = 0.0;
   double flying_at_edge = 0.0;
   /// Any pixel is lost with this probability.
