@@ -53,6 +53,30 @@ TEST(SurfaceScore, TheTruthItselfScoresOneAndHalfOfItHalfTheRecall) {
   EXPECT_NEAR(half->f1, 2.0 * half->recall / (1.0 + half->recall), 1e-12);
 }
 
+TEST(SurfaceScore, FruitByFruitIsTheSameAsAllAtOnceAndKnowsCopies) {
+  WorldOptions row = row_100m_world();
+  row.plants.resize(8);
+  row.copies = 3;
+  for (const Scene& scene : {make_world(row, 2), make_world(scenario_1_world(), 3)}) {
+    // Some of the surface, off by up to 2 cm.
+    Rng rng(4, "reconstruction");
+    std::vector<Point> points;
+    for (const Point& p : fruit_surface_points(scene, false)) {
+      if (p.z() < 0.4F || !rng.chance(0.05)) continue;
+      points.push_back(p + 0.2F * random_points(rng, 1).front());
+    }
+    ASSERT_FALSE(points.empty());
+    const auto score = surface_score(scene, points);
+    ASSERT_TRUE(score.has_value());
+    EXPECT_EQ(score->precision,
+              *share_near(points, fruit_surface_points(scene, false), kSurfaceMatchDistanceM));
+    EXPECT_EQ(score->recall,
+              *share_near(fruit_surface_points(scene, true), points, kSurfaceMatchDistanceM));
+    EXPECT_LT(score->precision, 1.0);
+    EXPECT_LT(score->recall, 1.0);
+  }
+}
+
 TEST(SurfaceScore, PointsOffTheFruitsCostPrecisionOnly) {
   const Scene scene = make_world(scenario_1_world(), 1);
   auto points = fruit_surface_points(scene, true);

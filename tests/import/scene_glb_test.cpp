@@ -2,6 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
 #include "canopeer/import/world_import.h"
 #include "canopeer/scene/worlds.h"
 #include "mesh_writers.h"
@@ -98,6 +104,104 @@ TEST(SceneGlb, AGeneratedRowKeepsItsFruits) {
     EXPECT_EQ(near->counted, fruit.counted);
     EXPECT_GT(near->volume_cm3, fruit.volume_cm3);
     EXPECT_LT(near->volume_cm3, 1.25 * fruit.volume_cm3);
+  }
+}
+
+/// The JSON of a .glb and the length of its binary part, both held against the lengths the file
+/// states.
+struct GlbText {
+  nlohmann::json json;
+  std::size_t binary_bytes = 0;
+};
+
+GlbText read_glb(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << file.rdbuf();
+  const std::string glb = bytes.str();
+  const auto word = [&](std::size_t at) {
+    std::uint32_t w = 0;
+    if (at + 4 <= glb.size()) std::memcpy(&w, glb.data() + at, 4);
+    return w;
+  };
+  EXPECT_EQ(glb.substr(0, 4), "glTF");
+  EXPECT_EQ(word(8), glb.size());
+  const std::size_t text = word(12);
+  const std::size_t binary = word(20 + text);
+  EXPECT_EQ(28 + text + binary, glb.size());
+  return {nlohmann::json::parse(glb.substr(20, text), nullptr, false), binary};
+}
+
+TEST(SceneGlb, ALongRowHasEveryCopyByNameInItsPlace) {
+  const Scene scene = make_world(*named_world("row_100m"), 1);
+  const test::WorldFiles files;
+  const auto path = files.path() / "row.glb";
+  ASSERT_TRUE(write_scene_glb(path, scene).has_value());
+  const auto [gltf, binary_bytes] = read_glb(path);
+  ASSERT_TRUE(gltf.is_object());
+  // Copies share meshes: the file is a fraction of the row.
+  EXPECT_LT(binary_bytes, 40U << 20U);
+  EXPECT_EQ(gltf["buffers"][0]["byteLength"], binary_bytes);
+  for (const auto& view : gltf["bufferViews"]) {
+    EXPECT_LE(view.value("byteOffset", std::size_t{0}) + view["byteLength"].get<std::size_t>(),
+              binary_bytes);
+  }
+  for (const auto& accessor : gltf["accessors"]) {
+    ASSERT_LT(accessor["bufferView"].get<std::size_t>(), gltf["bufferViews"].size());
+  }
+  std::map<std::string, std::size_t> node_of;
+  for (const auto& root : gltf["scenes"][0]["nodes"]) {
+    const auto node = root.get<std::size_t>();
+    ASSERT_LT(node, gltf["nodes"].size());
+    EXPECT_TRUE(node_of.emplace(gltf["nodes"][node]["name"], node).second) << "a name twice";
+  }
+  std::map<std::string, int> fruits;
+  ASSERT_EQ(scene.instances.size(), 400U);
+  for (const SceneInstance& copy : scene.instances) {
+    const std::string name = "plant_" + std::to_string(copy.plant);
+    ASSERT_TRUE(node_of.count(name)) << name;
+    const auto& node = gltf["nodes"][node_of[name]];
+    // y up: x, z and −y of ours, in the last column.
+    const Vec3 p = copy.T_world_model.translation();
+    EXPECT_NEAR(node["matrix"][12], p.x(), 1e-9);
+    EXPECT_NEAR(node["matrix"][13], p.z(), 1e-9);
+    EXPECT_NEAR(node["matrix"][14], -p.y(), 1e-9);
+    ASSERT_EQ(node["children"].size(), scene.models[copy.model].parts.size());
+    for (const auto& child : node["children"]) {
+      const auto& part = gltf["nodes"][child.get<std::size_t>()];
+      ASSERT_LT(part["mesh"].get<std::size_t>(), gltf["meshes"].size());
+      const std::string part_name = part["name"];
+      if (part_name.rfind("fruit_", 0) == 0 && part_name.rfind("fruit_part", 0) != 0) {
+        ++fruits[part_name];
+      }
+    }
+  }
+  ASSERT_EQ(fruits.size(), scene.fruits.size());
+  for (const FruitTruth& fruit : scene.fruits) {
+    EXPECT_EQ(fruits["fruit_" + std::to_string(fruit.id)], 1) << fruit.id;
+  }
+}
+
+TEST(SceneGlb, CopiesReadBackAsPlantsOfTheirOwn) {
+  WorldOptions row = *named_world("row_100m");
+  row.plants.resize(6);
+  row.copies = 3;
+  const Scene scene = make_world(row, 2);
+  ASSERT_EQ(scene.instances.size(), 6U);
+  const test::WorldFiles files;
+  WorldImportOptions options;
+  options.file = files.path() / "row.glb";
+  options.patterns = {.fruit = "^fruit", .counted = "_counted", .leaf = "^leaf"};
+  ASSERT_TRUE(write_scene_glb(options.file, scene).has_value());
+  const auto back = import_world(options);
+  ASSERT_TRUE(back.has_value()) << back.error().message;
+  ASSERT_EQ(back->scene.fruits.size(), scene.fruits.size());
+  EXPECT_EQ(back->scene.counted_fruits(), scene.counted_fruits());
+  for (const FruitTruth& fruit : scene.fruits) {
+    EXPECT_TRUE(
+        std::any_of(back->scene.fruits.begin(), back->scene.fruits.end(),
+                    [&](const FruitTruth& f) { return (f.centre - fruit.centre).norm() < 3e-3; }))
+        << fruit.id;
   }
 }
 
