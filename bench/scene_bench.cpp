@@ -257,7 +257,8 @@ int main(int argc, char** argv) {
        {"scene.render_against_packets", "render/scenario_2", "embree_packets/scenario_2", "ms"},
        {"scene.render_dense_2", "render/dense_2", "embree_stream/dense_2", "ms"},
        {"scene.render_row_100m", "render/row_100m", "render/scenario_2", "ms"},
-       {"scene.render_against_widest", "render/scenario_2", "embree_packets_widest/scenario_2",
+       {"scene.render_against_widest", "render/scenario_2", "embree_stream_widest/scenario_2", "ms"},
+       {"scene.render_dense_2_against_widest", "render/dense_2", "embree_stream_widest/dense_2",
         "ms"},
        {"scene.build_row_100m", "build_row_100m", "", "s"},
        {"scene.memory_row_100m", "build_row_100m", "", "MB", "resident_mb"}});

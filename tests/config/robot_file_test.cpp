@@ -54,6 +54,16 @@ TEST(RobotFile, ReadsTheShippedRobot) {
   EXPECT_DOUBLE_EQ(robot->lift_axis().upper, 2.2);
 }
 
+TEST(RobotFile, LaysRailsOfAnotherLength) {
+  const auto robot = load_robot(kRobot / "robot_long.yaml");
+  ASSERT_TRUE(robot) << robot.error().message;
+  EXPECT_DOUBLE_EQ(robot->travel_axis().lower, 0.0);
+  EXPECT_DOUBLE_EQ(robot->travel_axis().upper, 100.0);
+  EXPECT_DOUBLE_EQ(robot->lift_axis().upper, 2.2);
+  EXPECT_EQ(yaml_message("lift_joint:", "travel_limits_m: [4, 1]\nlift_joint:"),
+            "robot.yaml:11: 'travel_limits_m': expected [low, high] with low < high");
+}
+
 TEST(RobotFile, NamesFileLineAndKeyOfBadYaml) {
   EXPECT_EQ(yaml_message("camera_frame:", "camera_fame:"),
             "robot.yaml:8: unknown key 'camera_fame'; did you mean 'camera_frame'?");

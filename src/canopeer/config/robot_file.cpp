@@ -8,7 +8,6 @@
 #include "canopeer/config/yaml_reader.h"
 
 namespace canopeer {
-namespace {}  // namespace
 
 Pose read_pose(YamlMap pose) {
   const std::vector<double> xyz = pose.numbers("xyz_m", {0.0, 0.0, 0.0}, 3);
@@ -52,6 +51,7 @@ struct RobotFile {
   RobotSetup setup;
   std::vector<double> arm_acceleration_limits;
   double trolley_acceleration_limit = 0.0;
+  std::vector<double> travel_limits;  // empty: the URDF's
   std::optional<Pose> T_frame_camera;  // the mounting, when the file says one
 };
 
@@ -85,6 +85,14 @@ Expected<RobotFile> read_keys(const std::filesystem::path& path) {
   file.trolley_acceleration_limit =
       yaml.number("trolley_acceleration_limit_m_s2", 0.5, {1e-3, 1e3});
 
+  if (yaml.has("travel_limits_m")) {
+    file.travel_limits = yaml.required_numbers("travel_limits_m", 2);
+    if (setup.travel_joint.empty()) yaml.complain("travel_limits_m", "needs a travel_joint");
+    if (file.travel_limits[0] >= file.travel_limits[1]) {
+      yaml.complain("travel_limits_m", "expected [low, high] with low < high");
+    }
+  }
+
   YamlMap homes = yaml.map("home_states_rad");
   for (const std::string& name : homes.keys())
     setup.home[name] = to_configuration(homes.required_numbers(name, dof));
@@ -105,6 +113,16 @@ void set_acceleration_limits(const RobotFile& file, RobotDescription& robot) {
       joint.acceleration_limit = file.arm_acceleration_limits[it - arm.begin()];
     else if (joint.name == file.setup.travel_joint || joint.name == file.setup.lift_joint)
       joint.acceleration_limit = file.trolley_acceleration_limit;
+  }
+}
+
+/// Rails of another length than the URDF's.
+void set_travel_limits(const RobotFile& file, RobotDescription& robot) {
+  if (file.travel_limits.empty()) return;
+  for (Joint& joint : robot.joints) {
+    if (joint.name != file.setup.travel_joint) continue;
+    joint.lower = file.travel_limits[0];
+    joint.upper = file.travel_limits[1];
   }
 }
 
@@ -138,6 +156,7 @@ Expected<RobotModel> load_robot(const std::filesystem::path& path,
     if (auto read = read_srdf(file->srdf, *robot); !read) return fail(read.error().message);
   }
   set_acceleration_limits(*file, *robot);
+  set_travel_limits(*file, *robot);
   const auto mounting = T_frame_camera ? T_frame_camera : file->T_frame_camera;
   if (mounting && has_link(*robot, file->setup.camera_frame)) {
     mount_camera(*mounting, *robot, file->setup);
