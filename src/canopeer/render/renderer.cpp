@@ -213,8 +213,9 @@ RenderedView Renderer::render(const CameraRays& rays, const Pose& T_world_camera
   // Behind a lens straight edges are bent: such views are traced ray by ray.
   std::optional<VisibleImage> image;
   if (rays.lens().none()) image = impl_->rasterizer.draw(camera, T_world_camera);
-  // Every row is written by one task and depends on nothing but itself.
-  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<int>(0, camera.height, 16),
+  // Every row is written by one task and depends on nothing but itself. A painter knows the
+  // triangles of the row before: it gets many rows in turn.
+  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<int>(0, camera.height, 40),
                             [&](const oneapi::tbb::blocked_range<int>& rows) {
                               RowPainter painter(view.bodies, rays);
                               for (int v = rows.begin(); v < rows.end(); ++v) {
