@@ -61,7 +61,7 @@ TEST(RobotFile, LaysRailsOfAnotherLength) {
   EXPECT_DOUBLE_EQ(robot->travel_axis().upper, 100.0);
   EXPECT_DOUBLE_EQ(robot->lift_axis().upper, 2.2);
   EXPECT_EQ(yaml_message("lift_joint:", "travel_limits_m: [4, 1]\nlift_joint:"),
-            "robot.yaml:11: 'travel_limits_m': expected [low, high] with low < high");
+            "robot.yaml:11: travel_limits_m: expected [low, high] with low < high");
 }
 
 TEST(RobotFile, NamesFileLineAndKeyOfBadYaml) {

@@ -8,11 +8,18 @@
 namespace canopeer {
 
 Expected<void> write_file(const std::filesystem::path& path, std::string_view content) {
+  return write_file(path, std::span<const std::string_view>(&content, 1));
+}
+
+Expected<void> write_file(const std::filesystem::path& path,
+                          std::span<const std::string_view> pieces) {
   const std::filesystem::path temporary = path.string() + ".part";
   std::error_code code;
   {
     std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-    out.write(content.data(), static_cast<std::streamsize>(content.size()));
+    for (const std::string_view piece : pieces) {
+      out.write(piece.data(), static_cast<std::streamsize>(piece.size()));
+    }
     out.flush();
     if (!out) {
       const std::string reason = std::strerror(errno);

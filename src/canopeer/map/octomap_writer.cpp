@@ -2,7 +2,6 @@
 #include <array>
 #include <charconv>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "canopeer/base/byte_order.h"
 #include "canopeer/map/octomap_file.h"
 #include "canopeer/map/octomap_format.h"
+#include "canopeer/map/paged_bytes.h"
 
 namespace canopeer {
 namespace {
@@ -61,7 +61,7 @@ class TreeWriter {
   void write(const std::vector<CodedBlock>& blocks) {
     if (!blocks.empty()) write_range(blocks.data(), blocks.data() + blocks.size(), kTreeDepth);
   }
-  [[nodiscard]] const std::string& data() const { return data_; }
+  [[nodiscard]] const PagedBytes& data() const { return data_; }
   [[nodiscard]] std::size_t nodes() const { return nodes_; }
 
  private:
@@ -113,7 +113,7 @@ class TreeWriter {
     ++nodes_;
     if (binary_)
       return Node{(roi_ ? masks_->roi : masks_->occupied).test(voxel) ? 1.0F : 0.0F, true};
-    data_.append(kFullNodeBytes, '\0');
+    data_.resize(data_.size() + kFullNodeBytes);
     fill_in_full(data_.size() - kFullNodeBytes, log_odds, 0);
     return Node{log_odds, true};
   }
@@ -121,14 +121,14 @@ class TreeWriter {
   std::size_t open_inner() {
     ++nodes_;
     const std::size_t bytes = binary_ ? kBinaryNodeBytes : kFullNodeBytes;
-    data_.append(bytes, '\0');
+    data_.resize(data_.size() + bytes);
     return data_.size() - bytes;
   }
 
   void fill_in_full(std::size_t at, float log_odds, unsigned children) {
     std::string bytes;
     append_number(bytes, log_odds);
-    std::memcpy(&data_[at], bytes.data(), bytes.size());
+    for (std::size_t i = 0; i < bytes.size(); ++i) data_[at + i] = bytes[i];
     data_[at + sizeof log_odds] = static_cast<char>(children);
   }
 
@@ -167,7 +167,7 @@ class TreeWriter {
       nodes_ -= children.size();
       data_.resize(at);
       present = 0;
-      if (!binary_) data_.append(kFullNodeBytes, '\0');
+      if (!binary_) data_.resize(data_.size() + kFullNodeBytes);
     }
     if (!binary_) {
       fill_in_full(at, *highest, present);
@@ -181,7 +181,7 @@ class TreeWriter {
   const bool roi_;
   const bool binary_;
   const BlockMasks* masks_ = nullptr;  // of the block under way
-  std::string data_;
+  PagedBytes data_;
   std::size_t nodes_ = 0;
 };
 
@@ -201,7 +201,9 @@ Expected<void> write_tree(const VoxelMap& map, const std::filesystem::path& path
       std::string(precision == Precision::binary ? kBinaryFirstLine : kFullFirstLine) +
       "\n# (written by canopeer)\n#\nid OcTree\nsize " + std::to_string(writer.nodes()) + "\nres " +
       shortest(map.resolution_m()) + "\ndata\n";
-  return write_file(path, header + writer.data());
+  std::vector<std::string_view> pieces = writer.data().pieces();
+  pieces.insert(pieces.begin(), header);
+  return write_file(path, pieces);
 }
 
 }  // namespace
