@@ -51,7 +51,7 @@ struct RobotFile {
   RobotSetup setup;
   std::vector<double> arm_acceleration_limits;
   double trolley_acceleration_limit = 0.0;
-  std::vector<double> travel_limits;  // empty: the URDF's
+  std::vector<double> travel_limits;   // empty: the URDF's
   std::optional<Pose> T_frame_camera;  // the mounting, when the file says one
 };
 

@@ -213,6 +213,7 @@ RenderedView Renderer::render(const CameraRays& rays, const Pose& T_world_camera
   // Behind a lens straight edges are bent: such views are traced ray by ray.
   std::optional<VisibleImage> image;
   if (rays.lens().none()) image = impl_->rasterizer.draw(camera, T_world_camera);
+  if (!image || impl_->options.shadows) (void)impl_->caster();  // made before the threads need it
   // Every row is written by one task and depends on nothing but itself. A painter knows the
   // triangles of the row before: it gets many rows in turn.
   oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<int>(0, camera.height, 40),
