@@ -21,7 +21,7 @@
 namespace canopeer {
 namespace {
 
-constexpr int kSights = 512;
+constexpr int kSights = 1024;
 constexpr int kRestarts = 20;
 
 double cpu_time_s() {
@@ -175,11 +175,11 @@ void kdl_newton(benchmark::State& state, const Glasshouse& world) {
 void kdl_lma_ur5e(benchmark::State& state) { kdl_lma(state, ur5e()); }
 BENCHMARK(kdl_lma_ur5e)->Iterations(kSights);
 void kdl_newton_ur5e(benchmark::State& state) { kdl_newton(state, ur5e()); }
-BENCHMARK(kdl_newton_ur5e)->Iterations(kSights / 4);
+BENCHMARK(kdl_newton_ur5e)->Iterations(kSights / 8);
 void kdl_lma_rail(benchmark::State& state) { kdl_lma(state, rail()); }
 BENCHMARK(kdl_lma_rail)->Iterations(kSights);
 void kdl_newton_rail(benchmark::State& state) { kdl_newton(state, rail()); }
-BENCHMARK(kdl_newton_rail)->Iterations(kSights / 4);
+BENCHMARK(kdl_newton_rail)->Iterations(kSights / 8);
 
 /// Valid view states: `check` is timed on each alone.
 template <typename Check>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "canopeer/base/check.h"
@@ -10,7 +11,19 @@
 namespace canopeer {
 namespace {
 
-using Column = Eigen::Vector4d;
+/// A column of a pose's matrix in one register where there are such, else in two: the same
+/// operations, so the same bits.
+using Column = double __attribute__((vector_size(32)));
+
+[[gnu::always_inline]] inline Column load(const double* matrix, int column) {
+  Column c;
+  std::memcpy(&c, matrix + 4 * column, sizeof c);
+  return c;
+}
+
+[[gnu::always_inline]] inline void store(double* matrix, int column, Column c) {
+  std::memcpy(matrix + 4 * column, &c, sizeof c);
+}
 
 /// Roundings of angles like 1.5707963267948966 in a description.
 constexpr double kSnap = 1e-12;
@@ -36,73 +49,127 @@ int offset_axis_of(const Vec3& offset) {
   return static_cast<int>(axis);
 }
 
+bool swaps_axes(const Eigen::Matrix3d& R) {
+  return R.cwiseAbs().colwise().sum().isOnes(0.0) && R.cwiseAbs().rowwise().sum().isOnes(0.0) &&
+         R.cwiseAbs().colwise().maxCoeff().isOnes(0.0);
+}
+
+bool wide_registers() {
+#if defined(__x86_64__)
+  return __builtin_cpu_supports("avx2") != 0;
+#else
+  return false;
+#endif
+}
+
 }  // namespace
 
 int ArmChain::add(int parent, const Pose& T_parent_joint, JointType type, const Vec3& axis,
                   int arm_joint) {
   CANOPEER_CHECK(parent < size(), "parents come first");
   Segment segment;
+  General general;
   segment.parent = parent;
-  segment.T_parent_joint = T_parent_joint;
-  if (parent >= 0 && segments_[static_cast<std::size_t>(parent)].motion == Motion::kFixed) {
+  general.T_parent_joint = T_parent_joint;
+  if (parent >= 0 && general_[static_cast<std::size_t>(parent)].fixed) {
     // What hangs on a fixed part hangs on what that hangs on: shorter chains.
-    const Segment& fixed = segments_[static_cast<std::size_t>(parent)];
-    segment.parent = fixed.parent;
-    segment.T_parent_joint = fixed.T_parent_joint * T_parent_joint;
+    segment.parent = segments_[static_cast<std::size_t>(parent)].parent;
+    general.T_parent_joint =
+        general_[static_cast<std::size_t>(parent)].T_parent_joint * T_parent_joint;
   }
-  segment.T_parent_joint = snapped(segment.T_parent_joint);
-  segment.offset_axis = offset_axis_of(segment.T_parent_joint.translation());
-  segment.arm_joint = arm_joint;
-  segment.axis = axis;
-  const Eigen::Matrix3d R = segment.T_parent_joint.linear();
-  const bool swap = R.cwiseAbs().colwise().sum().isOnes(0.0) &&
-                    R.cwiseAbs().rowwise().sum().isOnes(0.0) &&
-                    R.cwiseAbs().colwise().maxCoeff().isOnes(0.0);
-  segment.turn = swap ? Turn::kSwap : Turn::kGeneral;
-  for (int k = 0; swap && k < 3; ++k) {
-    R.col(k).cwiseAbs().maxCoeff(&segment.column[k]);
-    segment.sign[k] = R(segment.column[k], k);
-  }
-  if (type == JointType::kPrismatic && arm_joint >= 0) segment.motion = Motion::kAlong;
-  if (type == JointType::kRevolute && arm_joint >= 0) {
-    segment.motion = Motion::kAboutAxis;
-    for (const auto& [motion, along] : {std::pair(Motion::kAboutX, Vec3(Vec3::UnitX())),
-                                        std::pair(Motion::kAboutY, Vec3(Vec3::UnitY())),
-                                        std::pair(Motion::kAboutZ, Vec3(Vec3::UnitZ()))}) {
-      if (axis != along && axis != -along) continue;
-      segment.motion = motion;
-      segment.axis_sign = axis.dot(along);
+  general.T_parent_joint = snapped(general.T_parent_joint);
+  general.axis = axis;
+  general.fixed = arm_joint < 0;
+  general.turns = !general.fixed && type == JointType::kRevolute;
+  segment.arm_joint = std::max(0, arm_joint);
+  segment.offset_axis = offset_axis_of(general.T_parent_joint.translation());
+  Vec3::Map(segment.offset) = general.T_parent_joint.translation();
+  segment.slides = !general.fixed && type == JointType::kPrismatic;
+  Vec3::Map(segment.along) = axis;
+
+  const bool about_axis = axis.cwiseAbs().maxCoeff() == 1.0 && axis.cwiseAbs().sum() == 1.0;
+  const Eigen::Matrix3d R = general.T_parent_joint.linear();
+  if (!swaps_axes(R) || (general.turns && !about_axis)) {
+    segment.kind = Kind::kAny;
+  } else {
+    Eigen::Index about = 2;
+    if (general.turns) {
+      axis.cwiseAbs().maxCoeff(&about);
+      segment.kind = Kind::kSwapAndTurn;
+      segment.turn_sign = axis[about];
+    }
+    for (int k = 0; k < 3; ++k) {
+      segment.axis[k] = static_cast<int>(about + 1 + k) % 3;
+      R.col(segment.axis[k]).cwiseAbs().maxCoeff(&segment.from[k]);
+      segment.sign[k] = R(segment.from[k], segment.axis[k]);
     }
   }
   segments_.push_back(segment);
+  general_.push_back(general);
   return size() - 1;
 }
 
-// A swap of axes and a turn about one of them, in one: two columns mix, one is copied.
-void ArmChain::turn_swapped(const Segment& segment, const Eigen::Matrix4d& parent, double sine,
-                            double cosine, Eigen::Matrix4d& own) {
-  const int axis = static_cast<int>(segment.motion) - static_cast<int>(Motion::kAboutX);
-  const int u = axis == 2 ? 0 : axis + 1;  // the turn leads from u to v
-  const int v = axis == 0 ? 2 : axis - 1;
-  const double s = segment.axis_sign * sine;
-  const Column from_u = parent.col(segment.column[u]);
-  const Column from_v = parent.col(segment.column[v]);
-  own.col(u) = (cosine * segment.sign[u]) * from_u + (s * segment.sign[v]) * from_v;
-  own.col(v) = (cosine * segment.sign[v]) * from_v - (s * segment.sign[u]) * from_u;
-  own.col(axis) = segment.sign[axis] * parent.col(segment.column[axis]);
-}
-
-void ArmChain::turn_any(const Segment& segment, const Eigen::Matrix4d& parent, double sine,
-                        double cosine, Eigen::Matrix4d& own) {
-  Eigen::Matrix3d R = segment.T_parent_joint.linear();
-  if (segment.motion != Motion::kFixed && segment.motion != Motion::kAlong) {  // Rodrigues
-    const Vec3& a = segment.axis;
+void ArmChain::turn_any(std::size_t segment, const Eigen::Matrix4d& parent, double sine,
+                        double cosine, Eigen::Matrix4d& own) const {
+  const General& general = general_[segment];
+  Eigen::Matrix3d R = general.T_parent_joint.linear();
+  if (general.turns) {  // Rodrigues
+    const Vec3& a = general.axis;
     const Eigen::Matrix3d across{{0.0, -a.z(), a.y()}, {a.z(), 0.0, -a.x()}, {-a.y(), a.x(), 0.0}};
     R = R *
         (cosine * Eigen::Matrix3d::Identity() + sine * across + (1.0 - cosine) * a * a.transpose());
   }
   for (int k = 0; k < 3; ++k)
     own.col(k) = parent.col(0) * R(0, k) + parent.col(1) * R(1, k) + parent.col(2) * R(2, k);
+}
+
+[[gnu::always_inline]] inline void ArmChain::follow(const Motions& motions, const Pose& T_root,
+                                                    Pose* T) const {
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    const Segment& segment = segments_[i];
+    const Eigen::Matrix4d& parent_matrix =
+        (segment.parent < 0 ? T_root : T[segment.parent]).matrix();
+    const double* const parent = parent_matrix.data();
+    double* const own = T[i].matrix().data();
+    const double sine = motions.sines[segment.arm_joint];
+    const double cosine = motions.cosines[segment.arm_joint];
+    if (segment.kind == Kind::kSwapAndTurn) {
+      // A swap of axes and a turn about one of them, in one: two columns mix, one is copied.
+      const double s = segment.turn_sign * sine;
+      const Column u = load(parent, segment.from[0]);
+      const Column v = load(parent, segment.from[1]);
+      store(own, segment.axis[0], (cosine * segment.sign[0]) * u + (s * segment.sign[1]) * v);
+      store(own, segment.axis[1], (cosine * segment.sign[1]) * v - (s * segment.sign[0]) * u);
+      store(own, segment.axis[2], segment.sign[2] * load(parent, segment.from[2]));
+    } else if (segment.kind == Kind::kAny) {
+      turn_any(i, parent_matrix, sine, cosine, T[i].matrix());
+    } else {
+      for (int k = 0; k < 3; ++k)
+        store(own, segment.axis[k], segment.sign[k] * load(parent, segment.from[k]));
+    }
+    Column origin = load(parent, 3);
+    if (segment.offset_axis == 3) {
+      origin += load(parent, 0) * segment.offset[0] + load(parent, 1) * segment.offset[1] +
+                load(parent, 2) * segment.offset[2];
+    } else if (segment.offset_axis >= 0) {
+      origin += load(parent, segment.offset_axis) * segment.offset[segment.offset_axis];
+    }
+    if (segment.slides) {
+      origin += motions.q[segment.arm_joint] *
+                (load(own, 0) * segment.along[0] + load(own, 1) * segment.along[1] +
+                 load(own, 2) * segment.along[2]);
+    }
+    store(own, 3, origin);
+  }
+}
+
+[[gnu::target("avx2")]] void ArmChain::follow_wide(const Motions& motions, const Pose& T_root,
+                                                   Pose* T) const {
+  follow(motions, T_root, T);
+}
+
+void ArmChain::follow_narrow(const Motions& motions, const Pose& T_root, Pose* T) const {
+  follow(motions, T_root, T);
 }
 
 void ArmChain::poses(const Configuration& q, const Pose& T_root, Pose* T) const {
@@ -112,32 +179,11 @@ void ArmChain::poses(const Configuration& q, const Pose& T_root, Pose* T) const 
   const int dof = static_cast<int>(q.size());
   for (int i = 0; i < dof; ++i) angles[i] = q[i];
   sin_cos(angles, dof, sines, cosines);
-
-  for (std::size_t i = 0; i < segments_.size(); ++i) {
-    const Segment& segment = segments_[i];
-    const Eigen::Matrix4d& parent = (segment.parent < 0 ? T_root : T[segment.parent]).matrix();
-    Eigen::Matrix4d& own = T[i].matrix();
-    const bool about_axis = segment.motion >= Motion::kAboutX && segment.motion <= Motion::kAboutZ;
-    if (segment.turn == Turn::kSwap && about_axis) {
-      turn_swapped(segment, parent, sines[segment.arm_joint], cosines[segment.arm_joint], own);
-    } else if (segment.turn == Turn::kSwap && segment.motion != Motion::kAboutAxis) {
-      for (int k = 0; k < 3; ++k) own.col(k) = segment.sign[k] * parent.col(segment.column[k]);
-    } else {
-      const int joint = std::max(0, segment.arm_joint);
-      turn_any(segment, parent, sines[joint], cosines[joint], own);
-    }
-    Column origin = parent.col(3);
-    const auto& offset = segment.T_parent_joint.matrix().col(3);
-    if (segment.offset_axis == 3) {
-      origin += parent.col(0) * offset[0] + parent.col(1) * offset[1] + parent.col(2) * offset[2];
-    } else if (segment.offset_axis >= 0) {
-      origin += parent.col(segment.offset_axis) * offset[segment.offset_axis];
-    }
-    if (segment.motion == Motion::kAlong)
-      origin += angles[segment.arm_joint] *
-                (own.col(0) * segment.axis.x() + own.col(1) * segment.axis.y() +
-                 own.col(2) * segment.axis.z());
-    own.col(3) = origin;
+  static const bool wide = wide_registers();
+  if (wide) {
+    follow_wide({angles, sines, cosines}, T_root, T);
+  } else {
+    follow_narrow({angles, sines, cosines}, T_root, T);
   }
 }
 

@@ -23,28 +23,45 @@ class ArmChain {
   void poses(const Configuration& q, const Pose& T_root, Pose* T) const;
 
  private:
-  enum class Turn { kSwap, kGeneral };  // the rotation of T_parent_joint
-  enum class Motion { kFixed, kAboutX, kAboutY, kAboutZ, kAboutAxis, kAlong };
+  /// How a segment's axes follow from its parent's. In the first two the fixed part only swaps
+  /// axes.
+  enum class Kind { kSwap, kSwapAndTurn, kAny };
   struct Segment {
     int parent = -1;
-    int arm_joint = -1;
-    Turn turn = Turn::kSwap;
-    Motion motion = Motion::kFixed;
-    int column[3] = {0, 1, 2};         // kSwap: joint axis k is parent axis
-    double sign[3] = {1.0, 1.0, 1.0};  // column[k] times sign[k]
-    double axis_sign = 1.0;            // kAboutX … kAboutZ: of the axis
-    int offset_axis = -1;              // T_parent_joint's translation is along this axis only;
-                                       // −1: it has none, 3: along several
+    int arm_joint = 0;  // 0 too where there is none
+    Kind kind = Kind::kSwap;
+    bool slides = false;
+    // Axis axis[k] is sign[k] times the parent's axis from[k]. A turn leads from axis[0] to
+    // axis[1], about axis[2].
+    int axis[3] = {0, 1, 2};
+    int from[3] = {0, 1, 2};
+    double sign[3] = {1.0, 1.0, 1.0};
+    double turn_sign = 1.0;
+    int offset_axis = -1;  // T_parent_joint's translation is along this axis only; −1: it has
+                           // none, 3: along several
+    double offset[3] = {0.0, 0.0, 0.0};
+    double along[3] = {0.0, 0.0, 0.0};  // of a linear axis, own frame
+  };
+  struct General {  // of segments whose axes do more than swap
     Pose T_parent_joint = Pose::Identity();
     Vec3 axis = Vec3::UnitZ();
+    bool fixed = true;
+    bool turns = false;
   };
 
-  static void turn_swapped(const Segment& segment, const Eigen::Matrix4d& parent, double sine,
-                           double cosine, Eigen::Matrix4d& own);
-  static void turn_any(const Segment& segment, const Eigen::Matrix4d& parent, double sine,
-                       double cosine, Eigen::Matrix4d& own);
+  struct Motions {  // of all joints: positions, and their sines and cosines
+    const double* q;
+    const double* sines;
+    const double* cosines;
+  };
+  void follow(const Motions& motions, const Pose& T_root, Pose* T) const;
+  void follow_wide(const Motions& motions, const Pose& T_root, Pose* T) const;
+  void follow_narrow(const Motions& motions, const Pose& T_root, Pose* T) const;
+  void turn_any(std::size_t segment, const Eigen::Matrix4d& parent, double sine, double cosine,
+                Eigen::Matrix4d& own) const;
 
   std::vector<Segment> segments_;
+  std::vector<General> general_;  // parallel to it
 };
 
 }  // namespace canopeer

@@ -40,10 +40,6 @@ struct ArcCurve {
   }
 };
 
-/// How far beyond the clearance asked for the voxels near a link's shape are looked at, so that its
-/// clearance is known a little beyond that too.
-constexpr double kShapeMarginM = 0.01;
-
 }  // namespace
 
 /// Where everything is in one configuration, world frame. On the stack: checks allocate nothing.
@@ -68,6 +64,8 @@ CollisionChecker::CollisionChecker(const RobotModel& robot, const TrolleyState& 
   double excess_m = options.sphere_excess_m;
   while (!collect_arm_links(excess_m)) excess_m *= 1.5;
   collect_obstacles(T_world_link);
+  collect_groups();
+  collect_reaches();
 }
 
 /// False: too many spheres.
@@ -172,7 +170,8 @@ bool CollisionChecker::measure_map(const State& state, const Required& required,
     for (int i = arm_links_[a].first_sphere; i < arm_links_[a].last_sphere; ++i) {
       double clearance = static_cast<double>(map_->distance(state.centres[i])) - radii_m_[i];
       if (clearance < enough) {
-        clearance = shape_clearance(state, arm_links_[a], i, enough + kShapeMarginM);
+        clearance = shape_clearance(state.T_world_link[arm_links_[a].moving], state.centres[i], i,
+                                    required.map[a], enough + kShapeMarginM);
         if (clearance < required.map[a]) return false;
       }
       clearances[a] = std::min(clearances[a], clearance);
@@ -182,21 +181,20 @@ bool CollisionChecker::measure_map(const State& state, const Required& required,
 }
 
 /// How far the part of a shape in one of its spheres is from the occupied voxels, at least; no more
-/// than `margin_m`. Voxels farther than that from the sphere are farther from what it holds.
-double CollisionChecker::shape_clearance(const State& state, const ArmLink& arm_link, int sphere,
-                                         double margin_m) const {
+/// than `margin_m`; once it is below `required_m` nobody wants to know how far. Voxels farther than
+/// that from the sphere are farther from what it holds.
+double CollisionChecker::shape_clearance(const Pose& T_world_link, const Vec3& centre, int sphere,
+                                         double required_m, double margin_m) const {
   const CollisionShape& shape = *sphere_shapes_[sphere];
-  const Pose T_shape_world = (state.T_world_link[arm_link.moving] * shape.T_link_shape).inverse();
+  const Pose T_shape_world = (T_world_link * shape.T_link_shape).inverse();
   const Vec3 reach = Vec3::Constant(radii_m_[sphere] + margin_m);
   const double voxel = map_->resolution_m();
   double clearance = margin_m;
-  map_->for_each_occupied(
-      Box(state.centres[sphere] - reach, state.centres[sphere] + reach),
-      [&](const VoxelIndex& index) {
-        clearance =
-            std::min(clearance, cube_distance(shape, T_shape_world * voxel_centre(index, voxel),
-                                              T_shape_world.linear(), voxel / 2.0));
-      });
+  map_->for_each_occupied(Box(centre - reach, centre + reach), [&](const VoxelIndex& index) {
+    if (clearance < required_m) return;  // where unknown space blocks there are thousands of them
+    clearance = std::min(clearance, cube_distance(shape, T_shape_world * voxel_centre(index, voxel),
+                                                  T_shape_world.linear(), voxel / 2.0));
+  });
   return clearance;
 }
 
@@ -252,13 +250,6 @@ bool CollisionChecker::measure(const Configuration& q, const Required& required,
       state.centres[i] = T_world_link * centres_[i];
   }
   return measure_map(state, required, clearances) && measure_self(state, required, clearances);
-}
-
-bool CollisionChecker::state_free(const Configuration& q) const {
-  Required required = padding_;
-  required.refine_below_m = 0.0;
-  Clearances clearances;
-  return robot_->within_limits(q) && measure(q, required, clearances);
 }
 
 bool CollisionChecker::edge_free(const Configuration& a, const Configuration& b,

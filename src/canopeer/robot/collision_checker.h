@@ -63,6 +63,9 @@ class CollisionChecker {
  private:
   static constexpr int kMaxArmLinks = 24;
   static constexpr int kMaxSpheres = 512;  // more: the spheres are made coarser
+  /// How far beyond the clearance asked for the voxels near a link's shape are looked at, so that
+  /// its clearance is known a little beyond that too.
+  static constexpr double kShapeMarginM = 0.01;
   /// Per arm link: how far it is from whatever it must not touch, at least; metres.
   using Clearances = std::array<double, kMaxArmLinks>;
   struct ArmLink {
@@ -82,6 +85,12 @@ class CollisionChecker {
     Pose T_shape_world = Pose::Identity();  // of one that rests
     std::vector<int> arm_links;             // indices of those that must not touch it
   };
+  struct SphereGroup {  // neighbouring spheres of one arm link
+    int arm_link = 0;
+    int first_sphere = 0;
+    int last_sphere = 0;  // one past
+    Sphere bound;         // around them
+  };
   struct Required {  // clearances to keep
     Clearances map;
     Clearances self;
@@ -93,11 +102,18 @@ class CollisionChecker {
   bool collect_arm_links(double sphere_excess_m);
   void collect_obstacles(const std::vector<Pose>& T_world_link);
   void measure_reach(ArmLink& arm_link) const;
+  void collect_groups();
+  void collect_reaches();
+  bool state_free_wide(const Configuration& q) const;
+  bool state_free_narrow(const Configuration& q) const;
+  bool look_at_state(const Configuration& q) const;
+  bool group_free(const Pose& T_world_link, const SphereGroup& group) const;
+  bool pair_free(const Obstacle& obstacle, const ArmLink& arm_link, const Pose* T_world_link) const;
   bool measure(const Configuration& q, const Required& required, Clearances& clearances) const;
   bool measure_self(const State& state, const Required& required, Clearances& clearances) const;
   bool measure_map(const State& state, const Required& required, Clearances& clearances) const;
-  double shape_clearance(const State& state, const ArmLink& arm_link, int sphere,
-                         double margin_m) const;
+  double shape_clearance(const Pose& T_world_link, const Vec3& centre, int sphere,
+                         double required_m, double margin_m) const;
   template <typename Curve>
   bool sweep(const Curve& curve, const Configuration& speed, const Required& required,
              int& states_checked) const;
@@ -112,6 +128,10 @@ class CollisionChecker {
   std::vector<double> radii_m_;
   std::vector<const CollisionShape*> sphere_shapes_;  // what each sphere helps to cover
   std::vector<Obstacle> obstacles_;
+  std::vector<SphereGroup> groups_;
+  // Per obstacle and arm link, the links in steps of four: the squared distance between their
+  // bounds from which on they are apart; negative: they need not be.
+  std::vector<double> apart2_m2_;
   double max_radius_m_ = 0.0;
 };
 
