@@ -195,7 +195,11 @@ void GraphBuilder::check_joints(std::vector<Joint>& joints, const CollisionCheck
     joint.free = checker.edge_free(graph_->node(joint.a).view.q, graph_->node(joint.b).view.q,
                                    &joint.states_checked);
   });
-  for (const auto& joint : joints) work.add(Work::state_check, joint.states_checked);
+  for (const auto& joint : joints) {
+    work.add(Work::state_check, joint.states_checked);
+    if (options_.on_edge)
+      options_.on_edge(graph_->node(joint.a).view.q, graph_->node(joint.b).view.q, joint.free);
+  }
 }
 
 void GraphBuilder::connect(const Joint& joint) {

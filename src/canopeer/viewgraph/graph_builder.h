@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "canopeer/base/compute_cost.h"
@@ -21,6 +22,9 @@ struct GraphBuilderOptions {
   int max_idle_batches =
       40;  ///< batches in a row without a new node, then rest until targets change
   bool keep_unconnected = false;  ///< views that join nothing stay, as in the published code
+  /// Told of every motion between two views that was proposed as an edge, and whether it was free;
+  /// for measurements. In the thread that joins.
+  std::function<void(const Configuration& from, const Configuration& to, bool free)> on_edge{};
 };
 
 /// Grows a view graph batch by batch ([Zaenker23], section III-C): samples view poses, skips those
