@@ -4,7 +4,9 @@
 
 #include <filesystem>
 
+#include "../import/mesh_writers.h"
 #include "canopeer/base/atomic_file.h"
+#include "canopeer/config/robot_mesh.h"
 #include "canopeer/config/srdf.h"
 #include "canopeer/config/urdf.h"
 
@@ -94,6 +96,30 @@ TEST(Urdf, SaysHowToExpandXacro) {
             "a.urdf:2: <xacro:include> is xacro; expand the file first: xacro a.urdf > robot.urdf");
 }
 
+TEST(Urdf, KnowsXacroInNumbersToo) {
+  const auto robot = parse_urdf(
+      "<robot name='r'>\n<link name='a'>\n<collision><origin xyz='0 0 ${h/2}'/>"
+      "<geometry><sphere radius='1'/></geometry></collision></link></robot>",
+      "a.urdf");
+  ASSERT_FALSE(robot);
+  EXPECT_EQ(robot.error().message,
+            "a.urdf:3: xyz=\"0 0 ${h/2}\" is xacro; expand the file first: xacro a.urdf > "
+            "robot.urdf");
+}
+
+TEST(RobotFile, NamesEveryJointThatLacksLimitsAndTheOneAHomeStateBreaks) {
+  std::string urdf = shipped("ur5e_trolley.urdf");
+  for (const std::string joint : {"elbow_joint", "wrist_2_joint"})
+    urdf = replaced(urdf, "\"" + joint + "\" type=\"revolute\"",
+                    "\"" + joint + "\" type=\"continuous\"");
+  const std::string message = message_with("ur5e_trolley.urdf", urdf);
+  EXPECT_NE(message.find("'elbow_joint' needs finite limits"), std::string::npos) << message;
+  EXPECT_NE(message.find("'wrist_2_joint' needs finite limits"), std::string::npos) << message;
+  EXPECT_EQ(yaml_message("side_1: [0.0, -0.7853981633974483, 1.5", "side_1: [0.0, -0.78, 9.5"),
+            "robot.yaml: home state 'side_1': joint 'elbow_joint' at 9.570796 is outside its "
+            "limits -3.141593 ... 3.141593");
+}
+
 TEST(Urdf, PassesOnWhatTheParserDislikesWithTheLine) {
   ::testing::internal::CaptureStderr();
   const std::string text =
@@ -164,6 +190,109 @@ TEST_F(RobotMeshes, ThatAreMissingAreNamedWithTheLineAndWhereTheyWereLookedFor) 
   const auto web = parse("http://example.org/a.stl");
   ASSERT_FALSE(web);
   EXPECT_NE(web.error().message.find("expected package://"), std::string::npos);
+}
+
+/// Where the shape's triangles lie in its link.
+Box box_in_link(const CollisionShape& shape) {
+  Box box;
+  for (const auto& vertex : shape.mesh->triangles.vertices)
+    box.extend(shape.T_link_shape * Vec3(vertex.cast<double>()));
+  return box;
+}
+
+TEST_F(RobotMeshes, OfEveryFormatMeanTheSameScaledAndPlacedByTheirElement) {
+  const test::Painted ball{"grey", test::ball(Vec3(0.1, 0.2, 0.3), 0.2)};
+  const auto meshes = directory_ / "my_arm" / "meshes";
+  test::DaeStyle centimetres;
+  centimetres.unit_m = 0.01;
+  centimetres.unit_name = "centimeter";
+  for (const auto& [name, text] :
+       {std::pair("a.stl", test::ascii_stl(ball.mesh)),
+        std::pair("b.stl", test::binary_stl(ball.mesh)),
+        std::pair("c.obj", test::obj({ball}, "none.mtl")), std::pair("d.dae", test::dae({ball})),
+        std::pair("e.dae", test::dae({ball}, centimetres))}) {
+    ASSERT_TRUE(write_file(meshes / name, text));
+    for (const std::string tag : {"collision", "visual"}) {
+      // Scaled first, then turned about z, then moved.
+      const auto robot = parse_urdf(
+          "<robot name='r'><link name='a'><" + tag +
+              "><origin xyz='1 2 3' rpy='0 0 1.5707963267948966'/><geometry><mesh filename='" +
+              "package://my_arm/meshes/" + name + "' scale='2 1 0.5'/></geometry></" + tag +
+              "></link></robot>",
+          "a.urdf", {directory_ / "my_arm" / "urdf", {}});
+      ASSERT_TRUE(robot) << robot.error().message;
+      const Link& link = robot->links.at(0);
+      EXPECT_TRUE(robot->notices.empty()) << robot->notices.front();
+      ASSERT_EQ(link.collision.size() + link.visual.size(), 1U) << name;
+      const Box box = box_in_link(tag == "visual" ? link.visual.at(0) : link.collision.at(0));
+      EXPECT_TRUE(box.min().isApprox(Vec3(1.0 - 0.4, 2.0 - 0.2, 3.05), 1e-5))
+          << name << ": " << box.min().transpose();
+      EXPECT_TRUE(box.max().isApprox(Vec3(1.0 - 0.0, 2.0 + 0.6, 3.25), 1e-5))
+          << name << ": " << box.max().transpose();
+    }
+  }
+}
+
+TEST_F(RobotMeshes, AreFoundThroughThePackagePath) {
+  const auto elsewhere = directory_ / "elsewhere" / "my_arm";
+  std::filesystem::create_directories(elsewhere);
+  write_wedge(elsewhere / "wedge.obj");
+  const std::string urdf =
+      "<robot name='r'><link name='a'><collision><geometry>"
+      "<mesh filename='package://my_arm/wedge.obj'/></geometry></collision></link></robot>";
+  EXPECT_FALSE(parse_urdf(urdf, "a.urdf", {directory_ / "my_arm" / "urdf", {}}));
+  for (const auto& folder : {directory_ / "elsewhere", elsewhere})
+    EXPECT_TRUE(parse_urdf(urdf, "a.urdf", {directory_ / "my_arm" / "urdf", {folder}}));
+}
+
+TEST_F(RobotMeshes, AreFoundInThePackageOfAFileInTheWorkingDirectory) {
+  const auto here = std::filesystem::current_path();
+  const std::string package = here.filename().string();
+  const auto mesh = here / "canopeer_wedge_in_working_directory.obj";
+  write_wedge(mesh);
+  const auto found = find_mesh("package://" + package + "/" + mesh.filename().string(), {"", {}});
+  std::filesystem::remove(mesh);
+  EXPECT_TRUE(found) << found.error().message;
+}
+
+TEST_F(RobotMeshes, OfOneLinkAreKeptApartEachAtItsOrigin) {
+  write_wedge(directory_ / "my_arm" / "meshes" / "wedge.obj");
+  std::string urdf = "<robot name='r'><link name='a'>";
+  for (const std::string x : {"0", "5"})
+    urdf += "<collision><origin xyz='" + x +
+            " 0 0'/><geometry><mesh filename='../meshes/wedge.obj'/></geometry></collision>";
+  urdf += "<collision><geometry><sphere radius='0.5'/></geometry></collision></link></robot>";
+  const auto robot = parse_urdf(urdf, "a.urdf", {directory_ / "my_arm" / "urdf", {}});
+  ASSERT_TRUE(robot) << robot.error().message;
+  const auto& shapes = robot->links.at(0).collision;
+  ASSERT_EQ(shapes.size(), 3U);
+  EXPECT_TRUE(box_in_link(shapes[0]).max().isApprox(Vec3(2.0, 3.0, 4.0), 1e-6));
+  EXPECT_TRUE(box_in_link(shapes[1]).max().isApprox(Vec3(7.0, 3.0, 4.0), 1e-6));
+  EXPECT_EQ(shapes[2].kind, ShapeKind::kSphere);
+}
+
+TEST_F(RobotMeshes, ThatAreMirroredKeepTheirInsideInside) {
+  write_wedge(directory_ / "my_arm" / "meshes" / "wedge.obj");
+  const auto robot = parse("../meshes/wedge.obj", " scale='-1 1 1'");
+  ASSERT_TRUE(robot) << robot.error().message;
+  const CollisionShape& shape = robot->links.at(0).collision.at(0);
+  EXPECT_TRUE(box_in_link(shape).min().isApprox(Vec3(-2.0, 0.0, 0.0), 1e-6));
+  double volume = 0.0;  // positive where the triangles face outwards
+  for (const auto& t : shape.mesh->triangles.triangles) {
+    const auto& v = shape.mesh->triangles.vertices;
+    volume += v[t[0]].cast<double>().dot(v[t[1]].cast<double>().cross(v[t[2]].cast<double>())) / 6;
+  }
+  EXPECT_NEAR(volume, 12.0, 1e-5);
+}
+
+TEST_F(RobotMeshes, ThatAreForDisplayOnlyMayBeMissing) {
+  const auto robot = parse_urdf(
+      "<robot name='r'><link name='a'><visual><geometry><mesh filename='none.dae'/></geometry>"
+      "</visual></link></robot>",
+      "a.urdf", {directory_ / "my_arm" / "urdf", {}});
+  ASSERT_TRUE(robot) << robot.error().message;
+  ASSERT_EQ(robot->notices.size(), 1U);
+  EXPECT_NE(robot->notices[0].find("none.dae"), std::string::npos);
 }
 
 TEST(RobotFile, ReadsTheArmOnARail) {

@@ -23,7 +23,9 @@ Expected<fs::path> find_in_package(const std::string& name, const std::string& r
   const fs::path file = rest.substr(slash + 1);
   std::vector<fs::path> folders = search.package_path;
   std::error_code code;
-  fs::path above = fs::absolute(search.directory, code).lexically_normal();
+  // A file in the working directory has no directory in its name.
+  const fs::path beside = search.directory.empty() ? fs::path(".") : search.directory;
+  fs::path above = fs::absolute(beside, code).lexically_normal();
   if (!above.has_filename()) above = above.parent_path();
   for (; above.has_relative_path(); above = above.parent_path()) folders.push_back(above);
   std::string tried;

@@ -169,6 +169,9 @@ Expected<RobotDescription> parse_urdf(const std::string& xml, const std::string&
   }
   RobotDescription robot;
   robot.name = model->getName();
+  for (const std::string& message : captured.messages()) {  // it read on, without that
+    robot.notices.push_back(place_of({message}, name, document) + ": " + message);
+  }
   for (const auto& [link_name, from] : model->links_) {
     auto link = to_link(*from, search, robot.notices);
     if (!link)

@@ -5,8 +5,21 @@
 namespace canopeer {
 namespace {
 
+/// What of an element is xacro, as it stands in the file; empty: nothing.
+std::string xacro_of(const tinyxml2::XMLElement& element) {
+  if (std::string_view(element.Name()).substr(0, 6) == "xacro:")
+    return '<' + std::string(element.Name()) + '>';
+  for (auto* attribute = element.FirstAttribute(); attribute != nullptr;
+       attribute = attribute->Next()) {
+    const std::string_view value = attribute->Value();
+    if (value.find("${") != std::string_view::npos || value.find("$(") != std::string_view::npos)
+      return std::string(attribute->Name()) + "=\"" + attribute->Value() + '"';
+  }
+  return {};
+}
+
 const tinyxml2::XMLElement* find_xacro(const tinyxml2::XMLElement* element) {
-  if (std::string_view(element->Name()).substr(0, 6) == "xacro:") return element;
+  if (!xacro_of(*element).empty()) return element;
   for (auto* child = element->FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement()) {
     if (const auto* found = find_xacro(child)) return found;
@@ -27,8 +40,8 @@ Expected<void> parse_xml(const std::string& xml, const std::string& name, const 
   if (root == nullptr || std::string_view(root->Name()) != root_tag)
     return fail(xml_place(name, root) + ": expected <" + root_tag + "> as the root element");
   if (const auto* xacro = find_xacro(root))
-    return fail(xml_place(name, xacro) + ": <" + xacro->Name() +
-                "> is xacro; expand the file first: xacro " + name + " > robot.urdf");
+    return fail(xml_place(name, xacro) + ": " + xacro_of(*xacro) +
+                " is xacro; expand the file first: xacro " + name + " > robot.urdf");
   return {};
 }
 
