@@ -50,6 +50,27 @@ void print_joints(const RobotModel& robot, const ArmIk& ik) {
   }
 }
 
+/// Whether the camera's axis meets the sampling region of the side the home state is for: the first
+/// frame of a segment is taken there.
+void check_first_look(const RobotModel& robot, Findings& findings) {
+  constexpr double kFar = 2.0;  // m
+  for (int side = 1; side <= robot.sides(); ++side) {
+    const std::string name = "side_" + std::to_string(side);
+    if (!robot.has_home(name)) continue;
+    const Pose T_base_camera = robot.T_base_camera(robot.home(name));
+    bool meets = false;
+    for (double depth = 0.0; depth < kFar && !meets; depth += 0.01)
+      meets = robot.sampling_region(side).contains(T_base_camera * Vec3(0.0, 0.0, depth));
+    if (meets) {
+      std::printf("  %s: the camera looks into its sampling region\n", name.c_str());
+    } else {
+      findings.wrong("home state '" + name + "': the z axis of '" + robot.setup().camera_frame +
+                     "' does not meet the sampling region; is it the optical frame (z forward, y " +
+                     "down), and does the arm face this side?");
+    }
+  }
+}
+
 void check_homes(const RobotModel& robot, Findings& findings) {
   std::printf("home states\n");
   const ExactChecker exact(robot);
@@ -58,7 +79,9 @@ void check_homes(const RobotModel& robot, Findings& findings) {
     if (!robot.has_home(name)) findings.wrong("missions need a home state '" + name + "'");
   }
   for (const auto& [name, q] : robot.setup().home) {
-    for (const double lift : {robot.lift_axis().lower, robot.lift_axis().upper}) {
+    std::vector<double> lifts = {robot.lift_axis().lower};
+    if (robot.lift_axis().upper > lifts[0]) lifts.push_back(robot.lift_axis().upper);
+    for (const double lift : lifts) {
       const TrolleyState trolley{robot.travel_axis().lower, lift};
       const ContactReport contacts = exact.check(q, trolley);
       char where[64];
@@ -75,6 +98,31 @@ void check_homes(const RobotModel& robot, Findings& findings) {
   }
 }
 
+/// Missions in which unknown space blocks rely on this box.
+void check_known_free(const RobotModel& robot, Findings& findings) {
+  const Box& box = robot.setup().known_free;
+  if (box.isEmpty()) {
+    std::printf("known_free: none, so no missions with 'collision.unknown: blocked'\n");
+    return;
+  }
+  std::printf("known_free\n");
+  constexpr double kSpare = 0.02;  // the padding, and a voxel
+  for (const auto& [name, q] : robot.setup().home) {
+    const Box arm = arm_bounds(robot, q);
+    const Box needed(arm.min() - Vec3::Constant(kSpare), arm.max() + Vec3::Constant(kSpare));
+    if (box.contains(needed)) {
+      std::printf("  %s: inside\n", name.c_str());
+      continue;
+    }
+    char room[160];
+    std::snprintf(room, sizeof room, "x %.2f ... %.2f, y %.2f ... %.2f, z %.2f ... %.2f",
+                  needed.min().x(), needed.max().x(), needed.min().y(), needed.max().y(),
+                  needed.min().z(), needed.max().z());
+    findings.wrong("home state '" + name + "' sticks out of known_free, so that it is blocked " +
+                   "with 'collision.unknown: blocked'; the arm there needs " + room);
+  }
+}
+
 void check_reach(const RobotModel& robot, const ArmIk& ik, int views, Findings& findings) {
   std::printf("reach (%d random views a side, target in the sampling region 0.3-0.6 m away)\n",
               views);
@@ -88,6 +136,13 @@ void check_reach(const RobotModel& robot, const ArmIk& ik, int views, Findings& 
     }
     std::printf("  side %d: %.1f %% reached, %.1f %% without touching itself or the trolley\n",
                 side, 100.0 * survey.reached / survey.views, 100.0 * survey.free / survey.views);
+    if (survey.free == 0) {
+      findings.wrong("side " + std::to_string(side) +
+                     ": no view of it can be taken; its boxes are given in '" +
+                     robot.setup().base_link + "': are they within the arm's reach, and is '" +
+                     robot.setup().camera_frame + "' an optical frame (z forward, y down)?");
+      continue;
+    }
     const Box& box = robot.workspace(side);
     int empty = 0;
     for (std::size_t part = 0; part < survey.part_views.size(); ++part) {
@@ -100,13 +155,12 @@ void check_reach(const RobotModel& robot, const ArmIk& ik, int views, Findings& 
       std::printf("    not one view from x %.2f … %.2f, y %.2f … %.2f, z %.2f … %.2f\n", low.x(),
                   high.x(), low.y(), high.y(), low.z(), high.z());
     }
-    if (survey.free == 0)
-      findings.wrong("side " + std::to_string(side) + ": no view of it can be taken");
     if (empty > 0) std::printf("    %d of 27 parts of the workspace are of no use\n", empty);
   }
 }
 
 std::vector<LinkPairSurvey> check_pairs(const RobotModel& robot, int states, Findings& findings) {
+  constexpr double kOften = 0.3;
   const auto pairs = survey_link_pairs(robot, states, kSeed);
   int checked = 0;
   for (const LinkPairSurvey& pair : pairs) checked += pair.disabled ? 0 : 1;
@@ -118,6 +172,9 @@ std::vector<LinkPairSurvey> check_pairs(const RobotModel& robot, int states, Fin
       findings.wrong(names + " are joined by a joint and touch: disable the pair in the SRDF");
     else if (!pair.disabled && pair.always())
       findings.wrong(names + " always touch: disable the pair in the SRDF, or mend a shape");
+    else if (!pair.disabled && pair.touching > kOften * pair.states)
+      std::printf("  touch in %.1f %% of the states, are their shapes too large? %s\n",
+                  100.0 * pair.touching / pair.states, names.c_str());
     else if (!pair.disabled && pair.never())
       std::printf("  never touch, could be disabled: %s\n", names.c_str());
     else if (pair.disabled && !pair.adjacent && !pair.never() && !pair.always())
@@ -144,9 +201,16 @@ void robot_check(const RobotCheckArguments& arguments) {
   const ArmIk ik = value_or_stop(ArmIk::make(robot), kBadInput);
   Findings findings;
   print_joints(robot, ik);
-  check_homes(robot, findings);
-  check_reach(robot, ik, arguments.views, findings);
+  // First, because pairs that always touch spoil all that follows.
   const auto pairs = check_pairs(robot, arguments.states, findings);
+  if (findings.count() > 0)
+    std::printf(
+        "  suggested.srdf disables what always or never touches: put it beside the robot "
+        "file and name it there as srdf\n");
+  check_homes(robot, findings);
+  check_first_look(robot, findings);
+  check_known_free(robot, findings);
+  check_reach(robot, ik, arguments.views, findings);
   print_covers(robot);
 
   const fs::path out = arguments.out.empty() ? fs::path("out") / "robot" : fs::path(arguments.out);
@@ -162,8 +226,10 @@ void robot_check(const RobotCheckArguments& arguments) {
                   kFailed);
   value_or_stop(write_file(out / "suggested.srdf", srdf_of(robot.description().name, pairs)),
                 kFailed);
-  std::printf("wrote %s, %s, %s\n", (out / "robot.png").c_str(), (out / "spheres.png").c_str(),
-              (out / "suggested.srdf").c_str());
+  std::printf(
+      "wrote %s, %s (green: workspace of side 1, yellow: its sampling region, red: where "
+      "the camera looks), %s\n",
+      (out / "robot.png").c_str(), (out / "spheres.png").c_str(), (out / "suggested.srdf").c_str());
   if (findings.count() > 0)
     stop_with(kFailed, {std::to_string(findings.count()) + " thing(s) wrong with this robot"});
 }

@@ -6,6 +6,9 @@
 namespace canopeer::app {
 namespace {
 
+constexpr double kBar = 0.008;   // m, thickness of lines
+constexpr double kSight = 0.35;  // m, of the camera's axis
+
 TriangleMesh mesh_of(const CollisionShape& shape) {
   switch (shape.kind) {
     case ShapeKind::kBox:
@@ -32,7 +35,6 @@ void add(Scene& scene, const TriangleMesh& mesh, const Pose& T_world_mesh, Rgb c
 
 /// The twelve edges of a box as bars.
 void add_frame(Scene& scene, const Box& box, const Pose& T_world_box, Rgb color) {
-  constexpr double kBar = 0.008;
   for (int axis = 0; axis < 3; ++axis) {
     Vec3 size = Vec3::Constant(kBar);
     size[axis] = box.sizes()[axis] + kBar;
@@ -55,6 +57,7 @@ Scene robot_scene(const RobotModel& robot, const Configuration& q, int side, boo
   constexpr Rgb kOtherArm{215, 140, 60};
   constexpr Rgb kWorkspace{60, 170, 80};
   constexpr Rgb kRegion{230, 190, 40};
+  constexpr Rgb kAxis{205, 40, 50};
   Scene scene;
   scene.name = robot.description().name;
   std::vector<Pose> T_world_link;
@@ -74,6 +77,9 @@ Scene robot_scene(const RobotModel& robot, const Configuration& q, int side, boo
     for (const CollisionShape& shape : link.visual.empty() ? link.collision : link.visual)
       add(scene, mesh_of(shape), T_world_link[i] * shape.T_link_shape, color);
   }
+  const Pose T_world_camera = robot.T_world_base({}) * robot.T_base_camera(q);
+  add(scene, box_mesh(Vec3(kBar, kBar, kSight)),
+      T_world_camera * Eigen::Translation3d(0.0, 0.0, kSight / 2.0), kAxis);
   if (side >= 1 && side <= robot.sides()) {
     const Pose T_world_base = robot.T_world_base({});
     add_frame(scene, robot.workspace(side), T_world_base, kWorkspace);

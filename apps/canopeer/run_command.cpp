@@ -94,6 +94,17 @@ void check_sides(const MissionFile& file, const RobotModel& robot) {
   }
 }
 
+/// Where unknown space blocks and nothing is known to be free, the arm could not leave its home.
+void check_known_free(const MissionFile& file, const RobotModel& robot) {
+  if (!file.mission.collision.unknown_blocks || !robot.setup().known_free.isEmpty()) return;
+  stop_with(kBadInput,
+            {file.robot.string() +
+             ": 'collision.unknown: blocked' needs known_free here, a box in the frame of '" +
+             robot.setup().base_link +
+             "' in which there is nothing but the robot (the aisle, say): without it the arm "
+             "cannot leave its home"});
+}
+
 }  // namespace
 
 void run(const RunArguments& arguments) {
@@ -103,6 +114,7 @@ void run(const RunArguments& arguments) {
   const RobotModel robot = value_or_stop(load_robot(file.robot, file.T_frame_camera), kBadInput);
   const ArmIk ik = value_or_stop(ArmIk::make(robot), kBadInput);
   check_sides(file, robot);
+  check_known_free(file, robot);
   value_or_stop(make_detector(file.mission.detector), kBadInput);
   std::optional<tbb::global_control> threads;
   if (arguments.threads > 0) {

@@ -22,13 +22,31 @@ Expected<void> check_limits(const Joint& joint) {
   const auto want = [&](bool there, const char* what) {
     if (!there) missing += std::string(missing.empty() ? "" : ", ") + what;
   };
-  want(number(joint.lower) && number(joint.upper), "lower and upper");
+  want(number(joint.lower) && number(joint.upper),
+       "lower and upper (a continuous joint: make it revolute with a range)");
   want(number(joint.velocity_limit) && joint.velocity_limit > 0.0, "velocity above 0");
   want(number(joint.acceleration_limit) && joint.acceleration_limit > 0.0, "acceleration above 0");
   if (!missing.empty())
     return fail("joint '" + joint.name + "' needs finite limits; missing: " + missing);
   if (joint.lower > joint.upper || joint.lower < -kLargest || joint.upper > kLargest)
     return fail("joint '" + joint.name + "': expected lower <= upper, both within 1e4");
+  return {};
+}
+
+/// All that is missing at once, so that a robot is mended in one go.
+Expected<void> check_all_limits(const RobotDescription& robot, const RobotSetup& setup) {
+  std::vector<std::string> driven = setup.arm_joints;
+  for (const std::string& axis : {setup.travel_joint, setup.lift_joint}) {
+    if (!axis.empty()) driven.push_back(axis);
+  }
+  std::string wrong;
+  for (const std::string& name : driven) {
+    const Joint* const joint = find_joint(robot, name);
+    if (joint == nullptr) continue;  // said elsewhere
+    if (auto limits = check_limits(*joint); !limits)
+      wrong += (wrong.empty() ? "" : "; ") + limits.error().message;
+  }
+  if (!wrong.empty()) return fail(wrong);
   return {};
 }
 
@@ -94,11 +112,12 @@ Expected<void> RobotModel::assign_roles() {
     if (joint->type != JointType::kPrismatic && !(arm && joint->type == JointType::kRevolute))
       return fail("joint '" + name + "' must be " + (arm ? "revolute or prismatic" : "prismatic") +
                   " (" + what + ")");
-    if (auto limits = check_limits(*joint); !limits) return fail(limits.error().message);
     index = link_index(joint->child);
     return joint;
   };
 
+  if (auto limits = check_all_limits(description_, setup_); !limits)
+    return fail(limits.error().message);
   const int dof = static_cast<int>(setup_.arm_joints.size());
   if (dof < 1 || dof > kMaxArmJoints)
     return fail("arm_joints: expected at least 1 and at most " + std::to_string(kMaxArmJoints) +
@@ -180,7 +199,12 @@ Expected<void> RobotModel::check_setup() const {
   for (const auto& [name, q] : setup_.home) {
     if (q.size() != dof())
       return fail("home state '" + name + "' needs " + std::to_string(dof()) + " values");
-    if (!within_limits(q)) return fail("home state '" + name + "' is outside the joint limits");
+    for (int i = 0; i < dof(); ++i) {
+      if (q[i] >= limits_.lower[i] && q[i] <= limits_.upper[i]) continue;
+      return fail("home state '" + name + "': joint '" + setup_.arm_joints[i] + "' at " +
+                  std::to_string(q[i]) + " is outside its limits " +
+                  std::to_string(limits_.lower[i]) + " ... " + std::to_string(limits_.upper[i]));
+    }
   }
   if (setup_.workspace.size() != setup_.sampling_region.size())
     return fail("each side needs a workspace and a sampling region");

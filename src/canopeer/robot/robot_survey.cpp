@@ -119,6 +119,21 @@ ReachSurvey survey_reach(const RobotModel& robot, const ArmIk& ik, int side, int
   return survey;
 }
 
+Box arm_bounds(const RobotModel& robot, const Configuration& q) {
+  std::vector<Pose> T_world_link;
+  robot.link_poses(q, {}, T_world_link);
+  const Pose T_base_world = robot.T_world_base({}).inverse();
+  Box bounds;
+  for (const int index : robot.moving_links()) {
+    for (const CollisionShape& shape : robot.links()[index].collision) {
+      const Vec3 half = shape.half_extents();
+      bounds.extend(
+          transformed(Box(-half, half), T_base_world * T_world_link[index] * shape.T_link_shape));
+    }
+  }
+  return bounds;
+}
+
 std::vector<CoverSurvey> survey_covers(const RobotModel& robot, double sphere_excess_m) {
   std::vector<CoverSurvey> covers;
   for (const int index : robot.moving_links()) {

@@ -45,6 +45,9 @@ struct ReachSurvey {
 [[nodiscard]] ReachSurvey survey_reach(const RobotModel& robot, const ArmIk& ik, int side,
                                        int views, std::uint64_t seed);
 
+/// Box around all links that move with the arm, base frame.
+[[nodiscard]] Box arm_bounds(const RobotModel& robot, const Configuration& q);
+
 /// A link of the arm and the spheres that stand for it.
 struct CoverSurvey {
   std::string link;
