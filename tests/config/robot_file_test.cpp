@@ -201,7 +201,7 @@ Box box_in_link(const CollisionShape& shape) {
 }
 
 TEST_F(RobotMeshes, OfEveryFormatMeanTheSameScaledAndPlacedByTheirElement) {
-  const test::Painted ball{"grey", test::ball(Vec3(0.1, 0.2, 0.3), 0.2)};
+  const test::Painted ball{"grey", test::ball(Vec3(0.1, 0.2, 0.3), 0.2), {90, 90, 90}, ""};
   const auto meshes = directory_ / "my_arm" / "meshes";
   test::DaeStyle centimetres;
   centimetres.unit_m = 0.01;

@@ -48,6 +48,29 @@ TEST_F(Collision, AStateCalledFreeIsFreeForTheExactJudge) {
   EXPECT_GT(fast_free, judge_free * 0.75);
 }
 
+TEST_F(Collision, TheQuickAnswerIsThatOfTheClearances) {
+  // An edge of no length is checked by its clearances.
+  CollisionOptions bare;
+  bare.map_padding_m = bare.self_padding_m = 0.0;
+  CollisionChecker unpadded(robot_, kTrolley, bare);
+  unpadded.set_map(&field_);
+  int free = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    Configuration q = random_configuration(random_, robot_);
+    if (trial % 2 == 0) {  // in front of the plants
+      q = robot_.home("side_1");
+      for (double& joint : q) joint += random_.uniform(-0.9, 0.9);
+    }
+    for (const CollisionChecker* checker : {&fast_, &unpadded}) {
+      const bool quick = checker->state_free(q);
+      ASSERT_EQ(quick, checker->edge_free(q, q)) << q.transpose();
+      free += quick ? 1 : 0;
+    }
+  }
+  EXPECT_GT(free, 4000);
+  EXPECT_LT(free, 36000);
+}
+
 TEST_F(Collision, AStateCalledFreeIsFreeForTheExactJudgeNearContactToo) {
   // From a free state towards a colliding one: the last state the fast check still accepts.
   int pairs = 0;

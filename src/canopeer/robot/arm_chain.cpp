@@ -15,14 +15,14 @@ namespace {
 /// operations, so the same bits.
 using Column = double __attribute__((vector_size(32)));
 
-[[gnu::always_inline]] inline Column load(const double* matrix, int column) {
+[[gnu::always_inline]] inline Column load(const double* column) {
   Column c;
-  std::memcpy(&c, matrix + 4 * column, sizeof c);
+  std::memcpy(&c, column, sizeof c);
   return c;
 }
 
-[[gnu::always_inline]] inline void store(double* matrix, int column, Column c) {
-  std::memcpy(matrix + 4 * column, &c, sizeof c);
+[[gnu::always_inline]] inline void store(double* column, Column c) {
+  std::memcpy(column, &c, sizeof c);
 }
 
 /// Roundings of angles like 1.5707963267948966 in a description.
@@ -96,13 +96,16 @@ int ArmChain::add(int parent, const Pose& T_parent_joint, JointType type, const 
     if (general.turns) {
       axis.cwiseAbs().maxCoeff(&about);
       segment.kind = Kind::kSwapAndTurn;
-      segment.turn_sign = axis[about];
     }
     for (int k = 0; k < 3; ++k) {
-      segment.axis[k] = static_cast<int>(about + 1 + k) % 3;
-      R.col(segment.axis[k]).cwiseAbs().maxCoeff(&segment.from[k]);
-      segment.sign[k] = R(segment.from[k], segment.axis[k]);
+      const Eigen::Index own = (about + 1 + k) % 3;
+      Eigen::Index from = 0;
+      R.col(own).cwiseAbs().maxCoeff(&from);
+      segment.axis[k] = static_cast<int>(4 * own);
+      segment.from[k] = static_cast<int>(4 * from);
+      segment.sign[k] = R(from, own);
     }
+    if (general.turns) segment.turn_sign = axis[about];
   }
   segments_.push_back(segment);
   general_.push_back(general);
@@ -136,30 +139,30 @@ void ArmChain::turn_any(std::size_t segment, const Eigen::Matrix4d& parent, doub
     if (segment.kind == Kind::kSwapAndTurn) {
       // A swap of axes and a turn about one of them, in one: two columns mix, one is copied.
       const double s = segment.turn_sign * sine;
-      const Column u = load(parent, segment.from[0]);
-      const Column v = load(parent, segment.from[1]);
-      store(own, segment.axis[0], (cosine * segment.sign[0]) * u + (s * segment.sign[1]) * v);
-      store(own, segment.axis[1], (cosine * segment.sign[1]) * v - (s * segment.sign[0]) * u);
-      store(own, segment.axis[2], segment.sign[2] * load(parent, segment.from[2]));
+      const Column u = load(parent + segment.from[0]);
+      const Column v = load(parent + segment.from[1]);
+      store(own + segment.axis[0], (cosine * segment.sign[0]) * u + (s * segment.sign[1]) * v);
+      store(own + segment.axis[1], (cosine * segment.sign[1]) * v - (s * segment.sign[0]) * u);
+      store(own + segment.axis[2], segment.sign[2] * load(parent + segment.from[2]));
     } else if (segment.kind == Kind::kAny) {
       turn_any(i, parent_matrix, sine, cosine, T[i].matrix());
     } else {
       for (int k = 0; k < 3; ++k)
-        store(own, segment.axis[k], segment.sign[k] * load(parent, segment.from[k]));
+        store(own + segment.axis[k], segment.sign[k] * load(parent + segment.from[k]));
     }
-    Column origin = load(parent, 3);
+    Column origin = load(parent + 12);
     if (segment.offset_axis == 3) {
-      origin += load(parent, 0) * segment.offset[0] + load(parent, 1) * segment.offset[1] +
-                load(parent, 2) * segment.offset[2];
+      origin += load(parent) * segment.offset[0] + load(parent + 4) * segment.offset[1] +
+                load(parent + 8) * segment.offset[2];
     } else if (segment.offset_axis >= 0) {
-      origin += load(parent, segment.offset_axis) * segment.offset[segment.offset_axis];
+      origin += load(parent + 4 * segment.offset_axis) * segment.offset[segment.offset_axis];
     }
     if (segment.slides) {
       origin += motions.q[segment.arm_joint] *
-                (load(own, 0) * segment.along[0] + load(own, 1) * segment.along[1] +
-                 load(own, 2) * segment.along[2]);
+                (load(own) * segment.along[0] + load(own + 4) * segment.along[1] +
+                 load(own + 8) * segment.along[2]);
     }
-    store(own, 3, origin);
+    store(own + 12, origin);
   }
 }
 

@@ -31,8 +31,8 @@ class ArmChain {
     int arm_joint = 0;  // 0 too where there is none
     Kind kind = Kind::kSwap;
     bool slides = false;
-    // Axis axis[k] is sign[k] times the parent's axis from[k]. A turn leads from axis[0] to
-    // axis[1], about axis[2].
+    // Axis axis[k] / 4 is sign[k] times the parent's from[k] / 4 (places in a matrix of four rows).
+    // A turn leads from axis[0] to axis[1], about axis[2].
     int axis[3] = {0, 1, 2};
     int from[3] = {0, 1, 2};
     double sign[3] = {1.0, 1.0, 1.0};
