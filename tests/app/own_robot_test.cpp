@@ -68,6 +68,22 @@ TEST(RobotCheck, RefusesBadInputWithStatusTwo) {
   EXPECT_NE(result.err.find("robots/none/robot.yaml"), std::string::npos) << result.err;
 }
 
+TEST(SmokeMission, IsRefusedWhereUnknownSpaceBlocksAndNothingIsKnownToBeFree) {
+  const test::TemporaryDirectory directory;
+  for (const char* file : {"robot.yaml", "ur5e_trolley.urdf", "ur5e_trolley.srdf"}) {
+    auto text = read_file(fs::path(CANOPEER_SOURCE_DIR "/robots/ur5e_trolley") / file);
+    ASSERT_TRUE(text);
+    const auto at = text->find("known_free:");
+    if (at != std::string::npos) text->erase(at);
+    ASSERT_TRUE(write_file(directory / file, *text));
+  }
+  const auto result = test::canopeer(
+      {"run", "missions/smoke.yaml", "--set", "collision.unknown=blocked", "--set",
+       "robot=" + (directory / "robot.yaml").string(), "--out", (directory / "run").string()});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_NE(result.err.find("needs known_free"), std::string::npos) << result.err;
+}
+
 TEST(SmokeMission, RunsWithTheSevenJointArmOnItsRail) {
   const test::TemporaryDirectory directory;
   const auto out = directory / "run";

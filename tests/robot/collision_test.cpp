@@ -48,6 +48,20 @@ TEST_F(Collision, AStateCalledFreeIsFreeForTheExactJudge) {
   EXPECT_GT(fast_free, judge_free * 0.75);
 }
 
+TEST_F(Collision, TheQuickAnswerIsThatOfTheClearancesAtTheEndOfTheFieldToo) {
+  DistanceFieldOptions options;
+  const Vec3 base = robot_.T_world_base(kTrolley).translation();
+  options.world = Box(base - Vec3::Constant(0.45), base + Vec3::Constant(0.45));
+  DistanceField small(options, map_.resolution_m());
+  small.rebuild(map_);
+  CollisionChecker checker(robot_, kTrolley);
+  checker.set_map(&small);
+  for (int trial = 0; trial < 20000; ++trial) {
+    const Configuration q = random_configuration(random_, robot_);
+    ASSERT_EQ(checker.state_free(q), checker.edge_free(q, q)) << q.transpose();
+  }
+}
+
 TEST_F(Collision, TheQuickAnswerIsThatOfTheClearances) {
   // An edge of no length is checked by its clearances.
   CollisionOptions bare;

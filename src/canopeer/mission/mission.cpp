@@ -1,11 +1,47 @@
 #include "canopeer/mission/mission.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
+#include <vector>
 
 #include "canopeer/mission/segment_runner.h"
 #include "canopeer/mission/traveller.h"
 
 namespace canopeer {
+namespace {
+
+/// No point of the arm is ever farther than this from the origin of its base link, m: the lengths
+/// along the chain added up.
+double reach_m(const RobotModel& robot) {
+  double farthest = 0.0;
+  std::vector<Pose> T_world_link;
+  robot.link_poses(Configuration::Zero(robot.dof()), {}, T_world_link);
+  const int first = robot.moving_links().front();
+  double begin = (T_world_link[static_cast<std::size_t>(first)].translation() -
+                  robot.T_world_base({}).translation())
+                     .norm();
+  if (robot.arm_joint_type(0) == JointType::kPrismatic)
+    begin += std::max(std::abs(robot.limits().lower[0]), std::abs(robot.limits().upper[0]));
+  for (const int link : robot.moving_links()) {
+    double way = begin;
+    for (const RobotModel::Hop& hop : robot.arm_hops(link)) way += hop.offset.norm() + hop.slide;
+    for (const CollisionShape& shape : robot.links()[link].collision) {
+      farthest = std::max(
+          farthest, way + shape.T_link_shape.translation().norm() + shape.half_extents().norm());
+    }
+  }
+  return farthest;
+}
+
+/// Where the distance field ends nothing is known to be in the way, so it reaches as far as the
+/// arm.
+MissionOptions with_reach_of(const RobotModel& robot, MissionOptions options) {
+  options.field_reach_m = std::max(options.field_reach_m, reach_m(robot));
+  return options;
+}
+
+}  // namespace
 
 struct Mission::State {
   const RobotModel& robot;
@@ -38,7 +74,7 @@ Mission::Mission(const RobotModel& robot, const ArmIk& ik, const ExactChecker& j
                        ports,
                        options,
                        stop,
-                       Perception(options),
+                       Perception(with_reach_of(robot, options)),
                        Traveller(robot, options.motion, options.seed),
                        {},
                        {},

@@ -118,14 +118,17 @@ bool CollisionChecker::pair_free(const Obstacle& obstacle, const ArmLink& arm_li
   if (map_ != nullptr) {
     // With a voxel's diagonal to spare no sphere inside can be found nearer than its padding.
     const double spare = options_.map_padding_m + std::sqrt(3.0) * map_->resolution_m();
+    const Box& known = map_->world();
     for (const SphereGroup& group : groups_) {
       const Pose& T = T_world_link[arm_links_[group.arm_link].moving];
-      const Lanes centre = apply(T.matrix().data(), group.bound.centre);
-      if (static_cast<double>(map_->distance(Vec3(centre[0], centre[1], centre[2]))) -
-              group.bound.radius_m <
-          spare) {
-        if (!group_free(T, group)) return false;
-      }
+      const Lanes lanes = apply(T.matrix().data(), group.bound.centre);
+      const Vec3 centre(lanes[0], lanes[1], lanes[2]);
+      // A centre beyond the field's box says nothing of spheres within it.
+      const double inside =
+          std::min((centre - known.min()).minCoeff(), (known.max() - centre).minCoeff());
+      const double clearance = static_cast<double>(map_->distance(centre)) - group.bound.radius_m;
+      if (inside >= group.bound.radius_m && clearance >= spare) continue;
+      if (!group_free(T, group)) return false;
     }
   }
 
