@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "canopeer/base/simd_level.h"
 #include "canopeer/geometry/voxel_ray.h"
 #include "canopeer/map/block.h"
-#include "canopeer/base/simd_level.h"
 
 namespace canopeer {
 
