@@ -1,6 +1,6 @@
 // Recorded runs seen through other cameras and detectors: each frame is rendered anew at its
 // recorded pose, searched for fruit and given to a fruit map, which is then held against the truth.
-// Writes one line a candidate and look into candidates.csv, for confidence_study.
+// Writes one line a candidate and look into candidates.csv: what the confidences are worth.
 //   fruit_replay MISSION.yaml OUT_DIR CONDITION[,CONDITION…] RUN_DIR…
 #include <algorithm>
 #include <cmath>

@@ -54,6 +54,9 @@ TEST(RgbdSensor, LabelsAreWrongWithTheGivenProbability) {
   }
   EXPECT_NEAR(fruit_lost, 0.3 * fruit, 0.05 * fruit);
   EXPECT_NEAR(other_called_fruit, 0.3 * other, 0.01 * other);
+  // The right ones are kept for scoring.
+  EXPECT_TRUE(frame.true_labels.pixels() == right.labels.pixels());
+  EXPECT_EQ(right.true_labels.width(), 0);
 }
 
 TEST(RgbdSensor, NoiseDiffersFromFrameToFrameAndRepeatsWithTheSeed) {

@@ -14,3 +14,13 @@ SimdLevel best_simd_level();
 const char* simd_level_name(SimdLevel level);
 
 }  // namespace canopeer
+
+/// Of NAME_scalar, NAME_avx2 and NAME_avx512 the one of a level; elsewhere there is the first only.
+#if defined(__x86_64__)
+#define CANOPEER_AT_LEVEL(level, NAME)                      \
+  ((level) == ::canopeer::SimdLevel::avx512 ? NAME##_avx512 \
+   : (level) == ::canopeer::SimdLevel::avx2 ? NAME##_avx2   \
+                                            : NAME##_scalar)
+#else
+#define CANOPEER_AT_LEVEL(level, NAME) NAME##_scalar
+#endif

@@ -132,11 +132,7 @@ CANOPEER_TARGET_AVX512 void end_point_row_avx512(const PixelRow& row, const Pixe
 }  // namespace
 
 EndPointRowKernel end_point_row_kernel([[maybe_unused]] SimdLevel level) {
-#if defined(__x86_64__)
-  if (level == SimdLevel::avx512) return end_point_row_avx512;
-  if (level == SimdLevel::avx2) return end_point_row_avx2;
-#endif
-  return end_point_row_scalar;
+  return CANOPEER_AT_LEVEL(level, end_point_row);
 }
 
 }  // namespace canopeer

@@ -264,11 +264,7 @@ CANOPEER_KERNELS(avx512, CANOPEER_TARGET_AVX512)
 }  // namespace
 
 FreeInBlockKernel free_in_block_kernel([[maybe_unused]] SimdLevel level) {
-#if defined(__x86_64__)
-  if (level == SimdLevel::avx512) return free_in_block_avx512;
-  if (level == SimdLevel::avx2) return free_in_block_avx2;
-#endif
-  return free_in_block_scalar;
+  return CANOPEER_AT_LEVEL(level, free_in_block);
 }
 
 }  // namespace canopeer

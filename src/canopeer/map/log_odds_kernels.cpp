@@ -131,20 +131,16 @@ CANOPEER_TARGET_AVX512 LogOddsRange miss_all_avx512(std::int16_t* cells,
   return miss_all_body(cells, steps);
 }
 
-constexpr LogOddsKernels kAvx2 = {step_avx2, miss_all_avx2};
-constexpr LogOddsKernels kAvx512 = {step_avx512, miss_all_avx512};
+constexpr LogOddsKernels kLogOdds_avx2 = {step_avx2, miss_all_avx2};
+constexpr LogOddsKernels kLogOdds_avx512 = {step_avx512, miss_all_avx512};
 #endif
 
-constexpr LogOddsKernels kScalar = {step_scalar, miss_all_scalar};
+constexpr LogOddsKernels kLogOdds_scalar = {step_scalar, miss_all_scalar};
 
 }  // namespace
 
 const LogOddsKernels& log_odds_kernels([[maybe_unused]] SimdLevel level) {
-#if defined(__x86_64__)
-  if (level == SimdLevel::avx512) return kAvx512;
-  if (level == SimdLevel::avx2) return kAvx2;
-#endif
-  return kScalar;
+  return CANOPEER_AT_LEVEL(level, kLogOdds);
 }
 
 }  // namespace canopeer

@@ -180,11 +180,7 @@ CANOPEER_KERNELS(avx512, CANOPEER_TARGET_AVX512)
 }  // namespace
 
 PyramidKernels pyramid_kernels([[maybe_unused]] SimdLevel level) {
-#if defined(__x86_64__)
-  if (level == SimdLevel::avx512) return kPyramid_avx512;
-  if (level == SimdLevel::avx2) return kPyramid_avx2;
-#endif
-  return kPyramid_scalar;
+  return CANOPEER_AT_LEVEL(level, kPyramid);
 }
 
 }  // namespace canopeer

@@ -139,11 +139,7 @@ CANOPEER_TARGET_AVX512 void walk_rays_avx512(const RayLanes& rays, std::size_t v
 }  // namespace
 
 WalkRays walk_rays_kernel([[maybe_unused]] SimdLevel level) {
-#if defined(__x86_64__)
-  if (level == SimdLevel::avx512) return walk_rays_avx512;
-  if (level == SimdLevel::avx2) return walk_rays_avx2;
-#endif
-  return walk_rays_scalar;
+  return CANOPEER_AT_LEVEL(level, walk_rays);
 }
 
 }  // namespace canopeer

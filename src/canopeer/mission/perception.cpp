@@ -4,15 +4,14 @@ namespace canopeer {
 
 namespace {
 
-/// Against the labels that came with the frame, where there is depth; none: it has no labels.
+/// Against the right labels of the frame, where there is depth; none: it has no labels.
 std::optional<PixelCounts> score_pixels(const RgbdFrame& frame, const Mask& found) {
-  if (frame.labels.width() != found.width() || frame.labels.height() != found.height()) {
-    return std::nullopt;
-  }
+  const auto& labels = frame.true_labels.width() > 0 ? frame.true_labels : frame.labels;
+  if (labels.width() != found.width() || labels.height() != found.height()) return std::nullopt;
   Mask truth(found.width(), found.height());
   Mask blind(found.width(), found.height());
   for (std::size_t i = 0; i < truth.pixels().size(); ++i) {
-    truth.pixels()[i] = counted_fruit(frame.labels.pixels()[i]);
+    truth.pixels()[i] = counted_fruit(labels.pixels()[i]);
     blind.pixels()[i] = !(frame.depth.pixels()[i] > 0.0F);
   }
   PixelCounts counts;

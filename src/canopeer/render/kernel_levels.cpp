@@ -13,19 +13,11 @@ extern const ShadingKernels kShadingKernels_avx512;
 #endif
 
 const RasterKernels& raster_kernels([[maybe_unused]] SimdLevel level) {
-#if defined(__x86_64__)
-  if (level == SimdLevel::avx512) return kRasterKernels_avx512;
-  if (level == SimdLevel::avx2) return kRasterKernels_avx2;
-#endif
-  return kRasterKernels_scalar;
+  return CANOPEER_AT_LEVEL(level, kRasterKernels);
 }
 
 const ShadingKernels& shading_kernels([[maybe_unused]] SimdLevel level) {
-#if defined(__x86_64__)
-  if (level == SimdLevel::avx512) return kShadingKernels_avx512;
-  if (level == SimdLevel::avx2) return kShadingKernels_avx2;
-#endif
-  return kShadingKernels_scalar;
+  return CANOPEER_AT_LEVEL(level, kShadingKernels);
 }
 
 }  // namespace canopeer

@@ -85,31 +85,40 @@ RgbdFrame RgbdSensor::capture(const Pose& T_world_camera, std::uint64_t number) 
                     : std::move(view.depth);
   frame.color = options_.noise.any_color() ? noisy_color(view.color, options_.noise, key)
                                            : std::move(view.color);
-  frame.labels = labels_of(view.labels, key);
+  frame.labels = labels_of(view.labels);
+  if (options_.label_noise > 0.0) {
+    frame.true_labels = frame.labels;
+    add_label_noise(key, &frame.labels);
+  }
   if (rectification_) {
     frame.depth = rectification_->apply(frame.depth, 0.0F);
     frame.color = rectification_->apply(frame.color, Rgb{});
     frame.labels = rectification_->apply(frame.labels, PixelLabel::background);
+    if (options_.label_noise > 0.0) {
+      frame.true_labels = rectification_->apply(frame.true_labels, PixelLabel::background);
+    }
   }
   return frame;
 }
 
-Image<PixelLabel> RgbdSensor::labels_of(const Labels& truth, std::uint64_t key) const {
+Image<PixelLabel> RgbdSensor::labels_of(const Labels& truth) const {
   Image<PixelLabel> labels(truth.fruit.width(), truth.fruit.height(), PixelLabel::background);
-  const std::uint64_t label_key = pixel_hash(key ^ 0x6c6162656cULL);
   for (std::size_t i = 0; i < labels.pixels().size(); ++i) {
     const int fruit = truth.fruit.pixels()[i];
-    const PixelLabel right =
-        fruit < 0 ? PixelLabel::background : label_of_fruit_[static_cast<std::size_t>(fruit)];
-    labels.pixels()[i] = right;
-    if (options_.label_noise <= 0.0) continue;
-    const std::uint64_t bits = pixel_hash(label_key + i);
-    if (static_cast<double>(bits >> 11) * 0x1.0p-53 >= options_.label_noise) continue;
-    labels.pixels()[i] = right == PixelLabel::background
-                             ? static_cast<PixelLabel>(1 + pixel_hash(bits) % 3)
-                             : PixelLabel::background;
+    if (fruit >= 0) labels.pixels()[i] = label_of_fruit_[static_cast<std::size_t>(fruit)];
   }
   return labels;
+}
+
+void RgbdSensor::add_label_noise(std::uint64_t key, Image<PixelLabel>* labels) const {
+  const std::uint64_t label_key = pixel_hash(key ^ 0x6c6162656cULL);
+  for (std::size_t i = 0; i < labels->pixels().size(); ++i) {
+    PixelLabel& label = labels->pixels()[i];
+    const std::uint64_t bits = pixel_hash(label_key + i);
+    if (static_cast<double>(bits >> 11) * 0x1.0p-53 >= options_.label_noise) continue;
+    label = label == PixelLabel::background ? static_cast<PixelLabel>(1 + pixel_hash(bits) % 3)
+                                            : PixelLabel::background;
+  }
 }
 
 }  // namespace canopeer

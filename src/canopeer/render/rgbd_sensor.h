@@ -45,7 +45,8 @@ class RgbdSensor {
   [[nodiscard]] const Pose& hand_eye_error() const { return T_said_true_; }
 
  private:
-  [[nodiscard]] Image<PixelLabel> labels_of(const Labels& truth, std::uint64_t key) const;
+  [[nodiscard]] Image<PixelLabel> labels_of(const Labels& truth) const;
+  void add_label_noise(std::uint64_t key, Image<PixelLabel>* labels) const;
 
   const Renderer& renderer_;
   RgbdSensorOptions options_;

@@ -2,28 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include "canopeer/base/check.h"
+#include "canopeer/robot/four_doubles.h"
 #include "canopeer/robot/sin_cos.h"
 
 namespace canopeer {
 namespace {
 
-/// A column of a pose's matrix in one register where there are such, else in two: the same
-/// operations, so the same bits.
-using Column = double __attribute__((vector_size(32)));
-
-[[gnu::always_inline]] inline Column load(const double* column) {
-  Column c;
-  std::memcpy(&c, column, sizeof c);
-  return c;
-}
-
-[[gnu::always_inline]] inline void store(double* column, Column c) {
-  std::memcpy(column, &c, sizeof c);
-}
+/// A column of a pose's matrix.
+using Column = FourDoubles;
 
 /// Roundings of angles like 1.5707963267948966 in a description.
 constexpr double kSnap = 1e-12;
@@ -52,14 +41,6 @@ int offset_axis_of(const Vec3& offset) {
 bool swaps_axes(const Eigen::Matrix3d& R) {
   return R.cwiseAbs().colwise().sum().isOnes(0.0) && R.cwiseAbs().rowwise().sum().isOnes(0.0) &&
          R.cwiseAbs().colwise().maxCoeff().isOnes(0.0);
-}
-
-bool wide_registers() {
-#if defined(__x86_64__)
-  return __builtin_cpu_supports("avx2") != 0;
-#else
-  return false;
-#endif
 }
 
 }  // namespace
@@ -139,30 +120,30 @@ void ArmChain::turn_any(std::size_t segment, const Eigen::Matrix4d& parent, doub
     if (segment.kind == Kind::kSwapAndTurn) {
       // A swap of axes and a turn about one of them, in one: two columns mix, one is copied.
       const double s = segment.turn_sign * sine;
-      const Column u = load(parent + segment.from[0]);
-      const Column v = load(parent + segment.from[1]);
-      store(own + segment.axis[0], (cosine * segment.sign[0]) * u + (s * segment.sign[1]) * v);
-      store(own + segment.axis[1], (cosine * segment.sign[1]) * v - (s * segment.sign[0]) * u);
-      store(own + segment.axis[2], segment.sign[2] * load(parent + segment.from[2]));
+      const Column u = load_four(parent + segment.from[0]);
+      const Column v = load_four(parent + segment.from[1]);
+      store_four(own + segment.axis[0], (cosine * segment.sign[0]) * u + (s * segment.sign[1]) * v);
+      store_four(own + segment.axis[1], (cosine * segment.sign[1]) * v - (s * segment.sign[0]) * u);
+      store_four(own + segment.axis[2], segment.sign[2] * load_four(parent + segment.from[2]));
     } else if (segment.kind == Kind::kAny) {
       turn_any(i, parent_matrix, sine, cosine, T[i].matrix());
     } else {
       for (int k = 0; k < 3; ++k)
-        store(own + segment.axis[k], segment.sign[k] * load(parent + segment.from[k]));
+        store_four(own + segment.axis[k], segment.sign[k] * load_four(parent + segment.from[k]));
     }
-    Column origin = load(parent + 12);
+    Column origin = load_four(parent + 12);
     if (segment.offset_axis == 3) {
-      origin += load(parent) * segment.offset[0] + load(parent + 4) * segment.offset[1] +
-                load(parent + 8) * segment.offset[2];
+      origin += load_four(parent) * segment.offset[0] + load_four(parent + 4) * segment.offset[1] +
+                load_four(parent + 8) * segment.offset[2];
     } else if (segment.offset_axis >= 0) {
-      origin += load(parent + 4 * segment.offset_axis) * segment.offset[segment.offset_axis];
+      origin += load_four(parent + 4 * segment.offset_axis) * segment.offset[segment.offset_axis];
     }
     if (segment.slides) {
       origin += motions.q[segment.arm_joint] *
-                (load(own) * segment.along[0] + load(own + 4) * segment.along[1] +
-                 load(own + 8) * segment.along[2]);
+                (load_four(own) * segment.along[0] + load_four(own + 4) * segment.along[1] +
+                 load_four(own + 8) * segment.along[2]);
     }
-    store(own + 12, origin);
+    store_four(own + 12, origin);
   }
 }
 
@@ -182,8 +163,7 @@ void ArmChain::poses(const Configuration& q, const Pose& T_root, Pose* T) const 
   const int dof = static_cast<int>(q.size());
   for (int i = 0; i < dof; ++i) angles[i] = q[i];
   sin_cos(angles, dof, sines, cosines);
-  static const bool wide = wide_registers();
-  if (wide) {
+  if (has_wide_registers()) {
     follow_wide({angles, sines, cosines}, T_root, T);
   } else {
     follow_narrow({angles, sines, cosines}, T_root, T);

@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <cstring>
 
+#include "canopeer/robot/four_doubles.h"
+
 namespace canopeer {
 namespace {
 
-using Doubles = double __attribute__((vector_size(32)));
+using Doubles = FourDoubles;
 using Bits = std::int64_t __attribute__((vector_size(32)));
 
 [[gnu::always_inline]] inline constexpr Doubles all(double value) {
@@ -81,19 +83,10 @@ void sin_cos_narrow(const double* angles, int count, double* sines, double* cosi
   for (int i = 0; i < count; i += 4) four(angles + i, sines + i, cosines + i);
 }
 
-bool wide_registers() {
-#if defined(__x86_64__)
-  return __builtin_cpu_supports("avx2") != 0;
-#else
-  return false;
-#endif
-}
-
 }  // namespace
 
 void sin_cos(const double* angles, int count, double* sines, double* cosines) {
-  static const bool wide = wide_registers();
-  (wide ? sin_cos_wide : sin_cos_narrow)(angles, count, sines, cosines);
+  (has_wide_registers() ? sin_cos_wide : sin_cos_narrow)(angles, count, sines, cosines);
 }
 
 }  // namespace canopeer

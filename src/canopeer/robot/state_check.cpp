@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "canopeer/map/distance_field.h"
 #include "canopeer/robot/collision_checker.h"
+#include "canopeer/robot/four_doubles.h"
 
 namespace canopeer {
 namespace {
@@ -16,37 +16,20 @@ namespace {
 constexpr double kGroupRadiusM = 0.10;
 
 constexpr int kLanes = 4;
-using Lanes = double __attribute__((vector_size(32)));
+using Lanes = FourDoubles;
 using LaneMask = long long __attribute__((vector_size(32)));
-
-[[gnu::always_inline]] inline Lanes load(const double* from) {
-  Lanes lanes;
-  std::memcpy(&lanes, from, sizeof lanes);
-  return lanes;
-}
-
-[[gnu::always_inline]] inline void store(double* to, Lanes lanes) {
-  std::memcpy(to, &lanes, sizeof lanes);
-}
 
 [[gnu::always_inline]] inline Lanes larger(Lanes a, Lanes b) { return a > b ? a : b; }
 
 [[gnu::always_inline]] inline Lanes size_of(Lanes a) { return larger(a, -a); }
 
 [[gnu::always_inline]] inline Lanes apply(const double* pose, const Vec3& p) {
-  return load(pose) * p.x() + load(pose + 4) * p.y() + load(pose + 8) * p.z() + load(pose + 12);
+  return load_four(pose) * p.x() + load_four(pose + 4) * p.y() + load_four(pose + 8) * p.z() +
+         load_four(pose + 12);
 }
 
 int steps_of_four(std::size_t count) {
   return static_cast<int>((count + kLanes - 1) / kLanes) * kLanes;
-}
-
-bool wide_registers() {
-#if defined(__x86_64__)
-  return __builtin_cpu_supports("avx2") != 0;
-#else
-  return false;
-#endif
 }
 
 }  // namespace
@@ -151,9 +134,9 @@ bool CollisionChecker::pair_free(const Obstacle& obstacle, const ArmLink& arm_li
     const bool box = obstacle.moving < 0 && obstacle.shape.kind == ShapeKind::kBox;
     const auto& T = obstacle.T_shape_world.matrix();
     for (int first = 0; first < lanes; first += kLanes, apart2 += kLanes) {
-      const Lanes px = load(x + first);
-      const Lanes py = load(y + first);
-      const Lanes pz = load(z + first);
+      const Lanes px = load_four(x + first);
+      const Lanes py = load_four(y + first);
+      const Lanes pz = load_four(z + first);
       Lanes dx = px - c[0];
       Lanes dy = py - c[1];
       Lanes dz = pz - c[2];
@@ -164,7 +147,7 @@ bool CollisionChecker::pair_free(const Obstacle& obstacle, const ArmLink& arm_li
         dy = larger(size_of(px * T(1, 0) + py * T(1, 1) + pz * T(1, 2) + T(1, 3)) - half.y(), zero);
         dz = larger(size_of(px * T(2, 0) + py * T(2, 1) + pz * T(2, 2) + T(2, 3)) - half.z(), zero);
       }
-      const LaneMask near = dx * dx + dy * dy + dz * dz < load(apart2);
+      const LaneMask near = dx * dx + dy * dy + dz * dz < load_four(apart2);
       if ((near[0] | near[1] | near[2] | near[3]) == 0) continue;
       for (int lane = 0; lane < kLanes; ++lane) {
         if (near[lane] != 0 &&
@@ -184,8 +167,7 @@ bool CollisionChecker::state_free_narrow(const Configuration& q) const { return 
 
 bool CollisionChecker::state_free(const Configuration& q) const {
   if (!robot_->within_limits(q)) return false;
-  static const bool wide = wide_registers();
-  return wide ? state_free_wide(q) : state_free_narrow(q);
+  return has_wide_registers() ? state_free_wide(q) : state_free_narrow(q);
 }
 
 }  // namespace canopeer

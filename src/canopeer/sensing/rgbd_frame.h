@@ -25,6 +25,9 @@ struct RgbdFrame {
   ColorImage color;
   /// From a camera that labels pixels, or from the simulator (with its label noise); empty: none.
   Image<PixelLabel> labels;
+  /// From the simulator, where its label noise makes `labels` wrong: what detectors are scored
+  /// against, and never see. Empty: the labels are right, or there are none.
+  Image<PixelLabel> true_labels;
 };
 
 }  // namespace canopeer
