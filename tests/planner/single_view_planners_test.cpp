@@ -84,6 +84,18 @@ TEST(RvpPlanner, NearnessToARoiFallsFromOneToZeroWithinItsReach) {
   EXPECT_EQ(nearness.at(Vec3(5.0, 0.0, 0.0)), 0.0);
 }
 
+TEST(RvpPlanner, AsLongAsNothingIsSeenItExploresTheBorderOfWhatIsKnown) {
+  test::PlannerFixture run("rvp", {});
+  MapChange change = run.world.home.change;
+  change.targets.roi.clear();
+  change.targets.occupied.clear();
+  ASSERT_FALSE(change.targets.border.empty());
+  run.planner->map_changed(std::move(change));
+  const Decision decision = run.planner->decide(run.q, run.work);
+  ASSERT_EQ(decision.action, Decision::Action::move);
+  EXPECT_EQ(decision.motion.kind, TargetKind::border);
+}
+
 TEST(RvpPlanner, WithoutFrontiersItIsStuckAfterItsPatience) {
   test::PlannerFixture run("rvp", {});
   run.planner->map_changed({});

@@ -52,20 +52,24 @@ Decision RvpPlanner::decide(const Configuration& q, WorkMeter& work) {
 }
 
 /// The list to try, best first: the ROI views when the best of them is worth it, else those that
-/// explore.
+/// explore: around what is occupied or, as long as nothing is, at the border of what is known.
 std::vector<RvpPlanner::Candidate> RvpPlanner::draw_and_choose(const Configuration& q,
                                                                WorkMeter& work) {
   const Vec3 camera_now =
       (scene_.segment.T_world_base * scene_.robot->T_base_camera(q)).translation();
   auto roi = draw_views(TargetKind::roi, camera_now, work);
-  auto explore = draw_views(TargetKind::occupied, camera_now, work);
+  const bool nothing_seen = targets_.roi.empty() && targets_.occupied.empty();
+  auto explore =
+      draw_views(nothing_seen ? TargetKind::border : TargetKind::occupied, camera_now, work);
   const bool worth_it = !roi.empty() && roi.front().utility > options_.roi_threshold;
   return worth_it ? roi : explore;
 }
 
 std::vector<RvpPlanner::Candidate> RvpPlanner::draw_views(TargetKind kind, const Vec3& camera_now,
                                                           WorkMeter& work) {
-  const auto& voxels = kind == TargetKind::roi ? targets_.roi : targets_.occupied;
+  const auto& voxels = kind == TargetKind::roi        ? targets_.roi
+                       : kind == TargetKind::occupied ? targets_.occupied
+                                                      : targets_.border;
   const Pose T_base_world = scene_.segment.T_world_base.inverse();
   std::vector<Candidate> views;
   for (int i = 0; i < options_.views_per_kind && !voxels.empty(); ++i) {
