@@ -102,89 +102,116 @@ struct Built {
   }
 };
 
-/// Paths of ten views over a full graph, all view casts in place.
-struct Paths {
+/// A full graph with all view casts in place, and a search tree over it that reaches as far as
+/// paths of ten views.
+struct Search {
   Built built{kGraphNodes};
-  std::vector<std::vector<NodeId>> paths;
+  std::vector<std::pair<NodeId, NodeId>> grown;  // node and predecessor, in order
+  std::vector<NodeId> ends;                      // the tree's nodes ten views from the root
 
-  Paths() {
+  Search() {
     while (!built.builder->resting()) built.grow();
     for (std::size_t i = 0; i < built.graph.id_count(); ++i) {
       ViewNode& node = built.graph.node(static_cast<NodeId>(i));
       if (!node.removed) node.cast = cast_view(segment().map(), node.view.T_world_camera, kFan);
     }
+    // Walks from the root: where one comes to a node of the tree it goes on from there.
     Rng rng(3, "bench paths");
-    while (paths.size() < kPaths) {
-      const ViewPath walk = random_walk(built.graph, built.start, kPathLength, rng);
-      if (walk.steps.size() != kPathLength) continue;
-      std::vector<NodeId> nodes;
-      for (const auto& step : walk.steps) nodes.push_back(step.node);
-      if (neighbors(nodes).empty()) continue;
-      paths.push_back(nodes);
+    std::vector<NodeId> from(built.graph.id_count());
+    std::vector<int> depth(built.graph.id_count(), -1);
+    depth[static_cast<std::size_t>(built.start)] = 0;
+    for (int walks = 0; walks < 100000 && ends.size() < kPaths; ++walks) {
+      NodeId at = built.start;
+      for (const auto& step : random_walk(built.graph, built.start, kPathLength, rng).steps) {
+        const auto next = static_cast<std::size_t>(step.node);
+        const int here = depth[static_cast<std::size_t>(at)];
+        if (depth[next] < 0 && here == kPathLength) break;
+        if (depth[next] < 0) {
+          depth[next] = here + 1;
+          grown.emplace_back(step.node, at);
+          if (depth[next] == kPathLength) ends.push_back(step.node);
+        }
+        at = step.node;
+      }
     }
   }
 
-  /// Of the last view, those not on the path.
-  [[nodiscard]] std::vector<ViewEdge> neighbors(const std::vector<NodeId>& path) const {
-    std::vector<ViewEdge> found;
-    for (const auto& edge : built.graph.node(path.back()).edges) {
-      const bool on_path = std::find(path.begin(), path.end(), edge.to) != path.end();
-      if (!on_path && !built.graph.node(edge.to).visited) found.push_back(edge);
-    }
-    return found;
-  }
-
-  /// A search tree that is this path.
-  [[nodiscard]] PathTree tree(const std::vector<NodeId>& path) const {
+  [[nodiscard]] PathTree tree() const {
     PathTree tree(built.graph, built.start);
-    NodeId at = built.start;
-    for (const NodeId id : path) {
-      tree.expand(at);
-      tree.attach(id, built.graph.edge_time(at, id).value());
-      at = id;
+    for (const auto& [id, from] : grown) {
+      tree.expand(from);
+      tree.attach(id, built.graph.edge_time(from, id).value());
     }
     return tree;
   }
+  /// Of each end, the neighbours that are not on the way to it. New ones only: those the tree has
+  /// not come to yet, each once.
+  [[nodiscard]] std::vector<std::vector<ViewEdge>> neighbors(const PathTree& tree,
+                                                             bool new_only) const {
+    std::vector<bool> taken(built.graph.id_count(), false);
+    std::vector<std::vector<ViewEdge>> found;
+    for (const NodeId end : ends) {
+      found.emplace_back();
+      const std::vector<NodeId> path = path_to(end);
+      for (const auto& edge : built.graph.node(end).edges) {
+        if (std::find(path.begin(), path.end(), edge.to) != path.end()) continue;
+        const auto id = static_cast<std::size_t>(edge.to);
+        if (edge.to == built.start || (new_only && (taken[id] || tree.reached(edge.to)))) continue;
+        taken[id] = true;
+        found.back().push_back(edge);
+      }
+    }
+    return found;
+  }
+  /// The views on the way to an end.
+  [[nodiscard]] std::vector<NodeId> path_to(NodeId end) const {
+    std::vector<NodeId> path;
+    for (auto step = grown.rbegin(); step != grown.rend(); ++step) {
+      if (step->first != end) continue;
+      path.push_back(end);
+      end = step->second;
+    }
+    return path;
+  }
 };
 
-Paths& paths() {
-  static Paths all;
-  return all;
+Search& search() {
+  static Search one;
+  return one;
 }
 
-/// Expands the ends of all paths: C(n), then U of each neighbour.
+/// Expands the tree's ends: C(n), then U of each neighbour. Cold: only neighbours that are come to
+/// for the first time, their views cast then, as in a search after a frame that changed everything.
 void expand_ends(benchmark::State& state, bool cold) {
-  std::vector<PathTree> trees;
-  std::vector<std::vector<ViewEdge>> neighbors;
+  PathTree tree = search().tree();
+  const auto neighbors = search().neighbors(tree, cold);
+  const PathTree fresh = tree;
   std::int64_t evaluated = 0;
   double sum = 0.0;
-  for (const auto& path : paths().paths) {
-    trees.push_back(paths().tree(path));
-    neighbors.push_back(paths().neighbors(path));
-  }
-  if (!cold) {  // the first time prepares the sets
-    for (std::size_t i = 0; i < trees.size(); ++i) {
-      trees[i].expand(paths().paths[i].back());
-      for (const auto& edge : neighbors[i]) sum += trees[i].utility_behind(edge.to, edge.time_s);
-    }
-  }
   std::size_t i = 0;
+  const auto expand = [&] {
+    tree.expand(search().ends[i]);
+    for (const auto& edge : neighbors[i]) {
+      if (cold) {
+        ViewNode& node = search().built.graph.node(edge.to);
+        node.cast = cast_view(segment().map(), node.view.T_world_camera, kFan);
+      }
+      sum += tree.utility_behind(edge.to, edge.time_s);
+    }
+    evaluated += static_cast<std::int64_t>(neighbors[i].size());
+    i = (i + 1) % neighbors.size();
+  };
+  if (!cold) {  // the first time prepares the sets
+    for (std::size_t k = 0; k < neighbors.size(); ++k) expand();
+    evaluated = 0;
+  }
   for (auto _ : state) {
     if (cold && i == 0) {
       state.PauseTiming();
-      for (std::size_t k = 0; k < trees.size(); ++k) trees[k] = paths().tree(paths().paths[k]);
+      tree = fresh;
       state.ResumeTiming();
     }
-    trees[i].expand(paths().paths[i].back());
-    for (const auto& edge : neighbors[i]) {
-      if (cold) {
-        ViewNode& node = paths().built.graph.node(edge.to);
-        node.cast = cast_view(segment().map(), node.view.T_world_camera, kFan);
-      }
-      sum += trees[i].utility_behind(edge.to, edge.time_s);
-    }
-    evaluated += static_cast<std::int64_t>(neighbors[i].size());
-    i = (i + 1) % trees.size();
+    expand();
   }
   benchmark::DoNotOptimize(sum);
   state.SetItemsProcessed(evaluated);
@@ -245,27 +272,32 @@ KeySet visible_unknown(const Pose& T_world_camera) {
 
 /// For each neighbour: its view cast, the path's set copied, the union, its size.
 void expansions_octomap(benchmark::State& state) {
+  constexpr std::size_t kEnds = 4;
+  const PathTree tree = search().tree();
+  const auto neighbors = search().neighbors(tree, true);
+  const auto cells_of = [](NodeId id) {
+    return visible_unknown(search().built.graph.node(id).view.T_world_camera);
+  };
   std::vector<KeySet> covered;
-  for (int k = 0; k < 4; ++k) {
-    KeySet all;
-    for (const NodeId id : paths().paths[static_cast<std::size_t>(k)]) {
-      const KeySet cells = visible_unknown(paths().built.graph.node(id).view.T_world_camera);
-      all.insert(cells.begin(), cells.end());
+  for (std::size_t k = 0; k < kEnds; ++k) {
+    covered.emplace_back();
+    for (const NodeId id : search().path_to(search().ends[k])) {
+      const KeySet cells = cells_of(id);
+      covered.back().insert(cells.begin(), cells.end());
     }
-    covered.push_back(std::move(all));
   }
   std::int64_t evaluated = 0;
   std::size_t sum = 0;
   std::size_t i = 0;
   for (auto _ : state) {
-    for (const auto& edge : paths().neighbors(paths().paths[i])) {
+    for (const auto& edge : neighbors[i]) {
       KeySet along = covered[i];
-      const KeySet cells = visible_unknown(paths().built.graph.node(edge.to).view.T_world_camera);
+      const KeySet cells = cells_of(edge.to);
       along.insert(cells.begin(), cells.end());
       sum += along.size();
       ++evaluated;
     }
-    i = (i + 1) % covered.size();
+    i = (i + 1) % kEnds;
   }
   benchmark::DoNotOptimize(sum);
   state.SetItemsProcessed(evaluated);

@@ -31,5 +31,36 @@ TEST(CellUnion, CountsWhatVoxelSetsCount) {
   }
 }
 
+VoxelSet moved(const VoxelSet& set, const VoxelIndex& by_blocks) {
+  std::vector<VoxelSet::Block> blocks;
+  for (const auto& block : set.blocks()) {
+    const VoxelIndex at = block_index(block.key) + by_blocks;
+    blocks.push_back({pack_block(at.x(), at.y(), at.z()), block.mask});
+  }
+  return VoxelSet(std::move(blocks));
+}
+
+TEST(CellUnion, SetsPreparedEarlierStayValidWhenLaterOnesLieElsewhere) {
+  Rng rng(13);
+  CellUnion cells;
+  std::vector<VoxelSet> sets;
+  std::vector<CellUnion::Prepared> prepared;
+  for (int i = 0; i < 40; ++i) {
+    const auto along = [&] { return static_cast<int>(rng.index(120)) - 60; };
+    sets.push_back(moved(random_set(rng), VoxelIndex(along(), along(), along() / 2)));
+    prepared.push_back(cells.prepare(sets.back()));
+  }
+  VoxelSet plain;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    ASSERT_EQ(cells.count_new(prepared[i]), plain.count_new(sets[i]));
+    cells.add(prepared[i]);
+    plain.merge(sets[i]);
+  }
+  cells.clear();
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    EXPECT_EQ(cells.count_new(prepared[i]), sets[i].count());
+  }
+}
+
 }  // namespace
 }  // namespace canopeer
