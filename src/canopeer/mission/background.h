@@ -13,9 +13,9 @@ namespace canopeer {
 
 /// What the planner does while the arm moves and the search runs. In simulated time (no workers)
 /// the work is done in the call that says how much time has passed, worth that time by the cost
-/// table. On the wall clock worker threads make the planner's tasks all the time; tasks read the
-/// map and the checker, which stand still between two frames, and what they find is taken over
-/// between two calls of the planner.
+/// table. On the wall clock worker threads make the planner's tasks all the time, while frames are
+/// fused too: tasks read a snapshot of the map, and what they find is taken over between two calls
+/// of the planner.
 class Background {
  public:
   /// All outlive it. `work`: what is done is counted there.
@@ -23,6 +23,9 @@ class Background {
   ~Background();
   Background(const Background&) = delete;
   Background& operator=(const Background&) = delete;
+
+  /// Tasks run in other threads, so they must be given snapshots.
+  [[nodiscard]] bool has_workers() const { return !workers_.empty(); }
 
   /// Tasks may be made from now on, when a segment has begun …
   void go() { set_quiet(false); }
@@ -40,8 +43,8 @@ class Background {
     return std::forward<F>(f)();
   }
 
-  /// Calls `f`, which may change what tasks read (map, distance field, segment); no task is under
-  /// way meanwhile.
+  /// Calls `f`, which may change what tasks read beside their snapshot (the segment); no task is
+  /// under way meanwhile.
   template <typename F>
   decltype(auto) alone(F&& f) {
     const Quiet quiet(*this);

@@ -61,6 +61,7 @@ Expected<void> SegmentRunner::run(const Configuration& home_after) {
   scene.checker = &checker_;
   scene.judge = &context_.judge;
   scene.costs = &context_.options.costs;
+  scene.snapshot = snapshot();
   scene.segment = frame_;
   scene.seed = context_.options.seed;
   context_.background.alone([&] { context_.planner.begin_segment(scene); });
@@ -90,6 +91,13 @@ Expected<void> SegmentRunner::run(const Configuration& home_after) {
   return go_home(home_after);
 }
 
+/// What tasks in other threads may read while the next frame is fused.
+std::shared_ptr<const MapSnapshot> SegmentRunner::snapshot() const {
+  if (!context_.background.has_workers()) return nullptr;
+  return std::make_shared<const MapSnapshot>(context_.perception.map(), context_.perception.field(),
+                                             checker_);
+}
+
 /// A frame from where the arm stands: fused, charged, recorded, told to the planner.
 Expected<void> SegmentRunner::observe(TargetKind kind, std::optional<std::int64_t> predicted) {
   auto frame = context_.timer.time("camera", [&] { return context_.ports.camera->capture(); });
@@ -98,11 +106,11 @@ Expected<void> SegmentRunner::observe(TargetKind kind, std::optional<std::int64_
     self_filter_.mask(*frame, context_.ports.arm->configuration(), context_.ports.trolley->state());
   }
   WorkMeter work;
-  auto observed = context_.background.alone([&] {
-    return context_.perception.observe(*frame, frame_.sampling_region_world, work, context_.timer);
-  });
+  auto observed =
+      context_.perception.observe(*frame, frame_.sampling_region_world, work, context_.timer);
   if (!observed) return tl::unexpected(observed.error());
   Observation& seen = *observed;
+  seen.change.snapshot = snapshot();
   ViewEvent view;
   view.segment = index_;
   view.view = static_cast<int>(context_.record.views.size());

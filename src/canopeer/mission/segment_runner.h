@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <string>
 
 #include "canopeer/mission/background.h"
@@ -47,6 +48,7 @@ class SegmentRunner {
   [[nodiscard]] JointPath without_needless_stops(const std::vector<Configuration>& waypoints);
   [[nodiscard]] Expected<void> go_home(const Configuration& home);
   [[nodiscard]] Expected<void> recover();
+  [[nodiscard]] std::shared_ptr<const MapSnapshot> snapshot() const;
   Decision decide();
   void pay(const WorkMeter& work);
   void pass(double seconds);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "canopeer/base/compute_cost.h"
+#include "canopeer/map/distance_field.h"
 #include "canopeer/map/frontier.h"
 #include "canopeer/map/voxel_map.h"
 #include "canopeer/robot/collision_checker.h"
@@ -38,6 +39,23 @@ struct Decision {
   ViewMotion motion;
 };
 
+/// The map as one frame left it, its distances and a checker on them, for readers in other threads
+/// while the next frame is fused. Never changed; costs a pointer a page of the map and a tile of
+/// the distances.
+struct MapSnapshot {
+  MapSnapshot(const VoxelMap& map_now, const DistanceField& field_now,
+              const CollisionChecker& checker_now)
+      : map(map_now), field(field_now), checker(checker_now) {
+    checker.set_map(&field);
+  }
+  MapSnapshot(const MapSnapshot&) = delete;
+  MapSnapshot& operator=(const MapSnapshot&) = delete;
+
+  VoxelMap map;
+  DistanceField field;
+  CollisionChecker checker;
+};
+
 /// All a planner may know about the robot and the map in one segment. The map and the checker (on
 /// the map's distance field) are those of the last fused frame and do not change during a call.
 struct PlanningScene {
@@ -47,6 +65,9 @@ struct PlanningScene {
   const CollisionChecker* checker = nullptr;  ///< fast and conservative
   const ExactChecker* judge = nullptr;        ///< slow and exact
   const CostTable* costs = nullptr;
+  /// What background tasks read, on the wall clock; null in simulated time, where nothing changes
+  /// while a task runs: map and checker.
+  std::shared_ptr<const MapSnapshot> snapshot;
   SegmentFrame segment;
   std::uint64_t seed = 1;
 };
@@ -55,6 +76,7 @@ struct PlanningScene {
 struct MapChange {
   std::vector<BlockKey> blocks;  ///< sorted
   FrontierTargets targets;       ///< all of them, re-extracted inside the sampling region
+  std::shared_ptr<const MapSnapshot> snapshot{};  ///< takes the place of the scene's
 };
 
 /// All zero for planners without a graph.
@@ -67,8 +89,9 @@ struct PlannerStatus {
   int off_pose_nodes = 0;  ///< put in because the arm was where no node is, the start included
 };
 
-/// A piece of background work. run() reads the map and the checker, which do not change meanwhile,
-/// and nothing else of the planner, so it may go on in another thread beside the planner's calls.
+/// A piece of background work. run() reads the scene's snapshot (in simulated time its map and
+/// checker) and nothing else of the planner, so it may go on in another thread beside the planner's
+/// calls and while a frame is fused.
 class BackgroundTask {
  public:
   virtual ~BackgroundTask() = default;

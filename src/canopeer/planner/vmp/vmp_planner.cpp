@@ -25,9 +25,11 @@ void keep_roi_neighbors(const VoxelMap& map, std::vector<VoxelIndex>& voxels) {
 }
 
 struct BatchTask : BackgroundTask {
-  explicit BatchTask(GraphBuilder::Batch b) : batch(std::move(b)) {}
+  BatchTask(GraphBuilder::Batch b, std::shared_ptr<const MapSnapshot> s)
+      : batch(std::move(b)), snapshot(std::move(s)) {}
   void run() override { batch.run(); }
   GraphBuilder::Batch batch;
+  std::shared_ptr<const MapSnapshot> snapshot;  // that the batch reads
 };
 
 }  // namespace
@@ -55,6 +57,7 @@ void VmpPlanner::begin_segment(const PlanningScene& scene) {
 
 void VmpPlanner::map_changed(MapChange change) {
   stood_s_ = 0.0;
+  scene_.snapshot = std::move(change.snapshot);
   if (options_.occupied_means_roi) keep_roi_neighbors(*scene_.map, change.targets.occupied);
   graph_.invalidate_casts(change.blocks);
   std::vector<NodeId> keep = path();
@@ -94,13 +97,19 @@ void VmpPlanner::time_passes(double seconds) {
 
 std::unique_ptr<BackgroundTask> VmpPlanner::next_task() {
   if (!builder_ || builder_->resting()) return nullptr;
-  return std::make_unique<BatchTask>(builder_->next_batch(*scene_.map, *scene_.checker));
+  const VoxelMap& map = scene_.snapshot ? scene_.snapshot->map : *scene_.map;
+  return std::make_unique<BatchTask>(builder_->next_batch(map, background_checker()),
+                                     scene_.snapshot);
 }
 
 void VmpPlanner::finish_task(BackgroundTask& task, WorkMeter& work) {
   auto* batch = dynamic_cast<BatchTask*>(&task);
   CANOPEER_CHECK(batch != nullptr, "a task this planner made");
-  builder_->join(std::move(batch->batch), *scene_.checker, work);
+  builder_->join(std::move(batch->batch), background_checker(), work);
+}
+
+const CollisionChecker& VmpPlanner::background_checker() const {
+  return scene_.snapshot ? scene_.snapshot->checker : *scene_.checker;
 }
 
 void VmpPlanner::grow(double budget_s, WorkMeter& work) {

@@ -62,6 +62,8 @@ class VmpPlanner : public Planner {
   void arrive(const Configuration& q, WorkMeter& work);
   void insert_off_pose(const Configuration& q, WorkMeter& work);
   [[nodiscard]] bool ready_to_search() const;
+  /// For what may go on while a frame is fused.
+  [[nodiscard]] const CollisionChecker& background_checker() const;
   void plan(WorkMeter& work);
   [[nodiscard]] bool look_ahead_used_up() const;
   [[nodiscard]] bool edge_clear(NodeId a, NodeId b, WorkMeter& work) const;
