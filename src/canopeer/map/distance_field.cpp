@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "canopeer/base/check.h"
 #include "canopeer/map/distance_tile.h"
+#include "canopeer/map/voxel_bounds.h"
 
 namespace canopeer {
 namespace {
@@ -97,26 +99,36 @@ float DistanceField::distance(const Vec3& p_world) const {
   constexpr int kMask = kTileSide - 1;
   const int cell =
       (voxel.z() & kMask) << (2 * kShift) | (voxel.y() & kMask) << kShift | (voxel.x() & kMask);
-  return root_m_[static_cast<std::size_t>(tile[static_cast<std::size_t>(cell)])];
+  std::uint16_t distance2 = 0;
+  if (tile_cell_bytes(reach_) == 1) {
+    distance2 = tile[static_cast<std::size_t>(cell)];
+  } else {
+    std::memcpy(&distance2, &tile[2 * static_cast<std::size_t>(cell)], sizeof distance2);
+  }
+  return root_m_[distance2];
 }
 
-bool DistanceField::take_over(const VoxelMap& map, BlockKey key) {
+VoxelMask DistanceField::take_over(const VoxelMap& map, BlockKey key) {
   const VoxelIndex cell = block_index(key) - first_block_ + VoxelIndex::Constant(halo_);
-  if ((cell.array() < 0).any() || (cell.array() >= grid_size_.array()).any()) return false;
+  if ((cell.array() < 0).any() || (cell.array() >= grid_size_.array()).any()) return {};
   VoxelMask& own = occupied_[cell_number(cell)];
   const VoxelMask now = obstacles(key, map.block(key));
-  if (own == now) return false;
+  VoxelMask moved;
+  for (std::size_t z = 0; z < kBlockSide; ++z) moved.slices[z] = own.slices[z] ^ now.slices[z];
   own = now;
-  return true;
+  return moved;
 }
 
-void DistanceField::mark_tiles_near(BlockKey key, std::vector<std::uint8_t>& dirty) const {
-  const VoxelIndex block = block_index(key) - first_block_;
+void DistanceField::mark_tiles_near(BlockKey key, const VoxelMask& moved,
+                                    std::vector<std::uint8_t>& dirty) const {
+  const VoxelBounds within = VoxelBounds::of(moved);
+  const VoxelIndex origin = (block_index(key) - first_block_) * kBlockSide;
   VoxelIndex low;
   VoxelIndex high;
   for (int axis = 0; axis < 3; ++axis) {
-    low[axis] = std::max(0, floor_div(block[axis] - halo_, kTileBlocks));
-    high[axis] = std::min(tiles_[axis] - 1, floor_div(block[axis] + halo_, kTileBlocks));
+    low[axis] = std::max(0, floor_div(origin[axis] + within.first[axis] - reach_, kTileSide));
+    high[axis] =
+        std::min(tiles_[axis] - 1, floor_div(origin[axis] + within.last[axis] + reach_, kTileSide));
   }
   for (int z = low.z(); z <= high.z(); ++z) {
     for (int y = low.y(); y <= high.y(); ++y) {
@@ -138,8 +150,8 @@ void DistanceField::compute(const std::vector<std::uint8_t>& dirty) {
       const std::size_t y = i / nx % ny;
       const std::size_t z = i / nx / ny;
       const std::size_t first = (x + y * stride_y + z * stride_z) * kTileBlocks;
-      distance2_[i] =
-          tile_distance2({&occupied_[first], stride_y, stride_z, halo_}, reach_, scratch.local());
+      tile_distance2({&occupied_[first], stride_y, stride_z, halo_}, reach_, scratch.local(),
+                     distance2_[i]);
     }
   });
 }
@@ -148,7 +160,8 @@ void DistanceField::update(const VoxelMap& map, const std::vector<BlockKey>& cha
   CANOPEER_CHECK(map.resolution_m() == resolution_m_, "map and field differ in resolution");
   std::vector<std::uint8_t> dirty(distance2_.size(), 0);
   for (const BlockKey key : changed) {
-    if (take_over(map, key)) mark_tiles_near(key, dirty);
+    const VoxelMask moved = take_over(map, key);
+    if (moved.any()) mark_tiles_near(key, moved, dirty);
   }
   compute(dirty);
 }
@@ -163,7 +176,7 @@ void DistanceField::rebuild(const VoxelMap& map) {
 std::size_t DistanceField::memory_bytes() const {
   std::size_t bytes = occupied_.capacity() * sizeof(VoxelMask) +
                       distance2_.capacity() * sizeof(Tile) + root_m_.capacity() * sizeof(float);
-  for (const Tile& tile : distance2_) bytes += tile.capacity() * sizeof(std::int16_t);
+  for (const Tile& tile : distance2_) bytes += tile.capacity();
   return bytes;
 }
 

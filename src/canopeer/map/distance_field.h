@@ -52,16 +52,18 @@ class DistanceField {
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
-  using Tile = std::vector<std::int16_t>;  // empty: nothing within reach
+  using Tile = std::vector<std::uint8_t>;  // of tile_distance2(); empty: nothing within reach
 
   /// What distances are to in a block; `block`: null when never observed.
   [[nodiscard]] VoxelMask obstacles(BlockKey key, const BlockMasks* block) const;
   /// To the state in which no block was ever observed.
   void forget();
   [[nodiscard]] std::size_t tile_number(const VoxelIndex& tile) const;
-  /// Copies the block's mask; false: nothing new, or out of reach.
-  bool take_over(const VoxelMap& map, BlockKey key);
-  void mark_tiles_near(BlockKey key, std::vector<std::uint8_t>& dirty) const;
+  /// Copies the block's mask; returns what is new in it, nothing when it is out of reach.
+  VoxelMask take_over(const VoxelMap& map, BlockKey key);
+  /// The tiles within reach of the voxels `moved` of a block.
+  void mark_tiles_near(BlockKey key, const VoxelMask& moved,
+                       std::vector<std::uint8_t>& dirty) const;
   void compute(const std::vector<std::uint8_t>& dirty);
 
   [[nodiscard]] std::size_t cell_number(const VoxelIndex& cell) const {

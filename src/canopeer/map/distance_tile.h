@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -22,17 +23,22 @@ struct TileSurroundings {
 
 /// Memory a thread uses again from tile to tile.
 struct TileScratch {
-  std::vector<std::int16_t> x_pass;
-  std::vector<std::int16_t> xy_pass;
-  std::vector<std::uint8_t> x_row_used;
-  std::vector<std::uint8_t> xy_row_used;
+  struct alignas(64) Line {
+    std::array<std::uint8_t, 64> bytes;
+  };
+  std::vector<Line> lines;
+  std::vector<std::uint8_t> used;
 };
+
+/// Squares up to 15² fit a byte; others take two (native order).
+inline int tile_cell_bytes(int reach) { return reach <= 15 ? 1 : 2; }
 
 /// Per voxel of the tile (x fastest) min(reach², squared gap to the nearest occupied voxel), the
 /// gap of voxels n apart on an axis being max(0, n − 1): what is certain for any two of their
 /// points. Empty when nothing is within reach. reach ≤ 8 · halo and ≤ 120.
+/// `out`: tile_cell_bytes() a voxel; its memory is used again.
 /// `simd` must be a level the machine has; it changes the speed only.
-std::vector<std::int16_t> tile_distance2(const TileSurroundings& around, int reach,
-                                         TileScratch& scratch, SimdLevel simd = best_simd_level());
+void tile_distance2(const TileSurroundings& around, int reach, TileScratch& scratch,
+                    std::vector<std::uint8_t>& out, SimdLevel simd = best_simd_level());
 
 }  // namespace canopeer

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "canopeer/map/block.h"
 
 namespace canopeer {
@@ -21,6 +24,26 @@ struct VoxelBounds {
       bounds.first[axis] = index(std::ceil(world.min()[axis] / resolution_m - 0.5));
       bounds.last[axis] = index(std::floor(world.max()[axis] / resolution_m - 0.5));
     }
+    return bounds;
+  }
+
+  /// Around the voxels of a mask (not empty), counted from their block's first.
+  static VoxelBounds of(const VoxelMask& mask) {
+    std::uint64_t above = 0;  // what the slices hold together, seen along z
+    VoxelBounds bounds{VoxelIndex::Constant(kBlockSide), VoxelIndex::Zero()};
+    for (int z = 0; z < kBlockSide; ++z) {
+      const std::uint64_t slice = mask.slices[static_cast<std::size_t>(z)];
+      if (slice == 0) continue;
+      above |= slice;
+      bounds.first.z() = std::min(bounds.first.z(), z);
+      bounds.last.z() = z;
+    }
+    bounds.first.y() = std::countr_zero(above) / kBlockSide;
+    bounds.last.y() = (63 - std::countl_zero(above)) / kBlockSide;
+    for (int shift = 32; shift >= kBlockSide; shift /= 2) above |= above >> shift;
+    const auto row = static_cast<std::uint8_t>(above);
+    bounds.first.x() = std::countr_zero(row);
+    bounds.last.x() = 7 - std::countl_zero(row);
     return bounds;
   }
 
