@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
+#include <limits>
 
 #include "canopeer/map/kernel_targets.h"
 
@@ -11,6 +13,8 @@ namespace {
 
 constexpr int kSide = kTileSide;
 constexpr int kLine = 64;  // bytes
+constexpr int kMaxReach = 120;
+constexpr int kMaxWide = kSide + 2 * kMaxReach;
 
 // The passes' memory, cells of 8 or 16 bits. Rows lie along x and begin and end with whole lines.
 template <typename Cell>
@@ -18,20 +22,21 @@ struct Passes {
   static constexpr int kLanes = kLine / static_cast<int>(sizeof(Cell));
 
   int reach = 0;
-  int pad = 0;     // voxels beside the tile, ≥ reach
-  int wide = 0;    // rows and planes, tile and pads
-  int stride = 0;  // cells a row
-  Cell far = 0;    // reach²
+  int reach_unlimited = 0;  // gap² up to here and far together fit a cell
+  int pad = 0;              // voxels beside the tile, ≥ reach
+  int wide = 0;             // rows and planes, tile and pads
+  int stride = 0;           // cells a row
+  int deep = 0;  // rows a y of y_pass: odd, or they would all want the same places of the cache
+  Cell far = 0;  // reach²
   // Per k ≤ reach a line of gap²(k) and one of far − gap²(k).
   Cell* steps = nullptr;
   Cell* limits = nullptr;
-  Cell* plane = nullptr;             // wide rows: 0 where occupied, all bits elsewhere
-  Cell* ahead = nullptr;             // kSide rows: distance along y to what comes before
-  Cell* y_pass = nullptr;            // [z of wide][y of kSide] rows
-  Cell* z_pass = nullptr;            // [z of kSide][y of kSide] rows
-  std::uint8_t* row_used = nullptr;  // of the plane: something occupied
-  std::uint8_t* y_used = nullptr;    // of y_pass: something nearer than far
-  std::uint8_t* z_used = nullptr;
+  Cell* plane = nullptr;   // wide rows: 0 where occupied, all bits elsewhere
+  Cell* ahead = nullptr;   // kSide rows: distance along y to what comes before
+  Cell* y_pass = nullptr;  // [z of wide][y of kSide] rows
+  Cell* z_pass = nullptr;  // [z of kSide][y of kSide] rows
+  // Per plane the rows y of the tile beyond which nothing is within reach, [first, end).
+  std::array<std::uint8_t, kMaxWide> first{}, end{};
 };
 
 template <typename Cell>
@@ -64,19 +69,34 @@ CANOPEER_KERNEL_BODY void lower(Vector& lanes, const Vector& other) {
   lanes = other < lanes ? other : lanes;
 }
 
-// best = min(best, far, row one + step, row other + step); no sum exceeds far.
+// best = min(best, row one + step, row other + step) over lines `apart` cells apart, step =
+// gap²(k). As far as sums fit a cell; the rest after the rows' values have been lowered to far −
+// step.
 template <typename Vector, typename Cell>
-CANOPEER_KERNEL_BODY void relax(Vector& best, const Cell* one, const Cell* other,
-                                const Cell* limit_line, const Cell* step_line) {
-  Vector candidate, second, limit, step;
-  load(candidate, one);
-  load(second, other);
-  load(limit, limit_line);
-  load(step, step_line);
-  lower(candidate, second);
-  lower(candidate, limit);
-  candidate += step;
-  lower(best, candidate);
+CANOPEER_KERNEL_BODY void relax(Vector& best, const Cell* row, int apart, int first,
+                                const Passes<Cell>& p) {
+  const Cell* after = row + first * apart;
+  const Cell* before = row - first * apart;
+  Vector candidate, other, step, limit;
+  int k = first;
+  for (; k <= p.reach_unlimited; ++k, after += apart, before -= apart) {
+    load(candidate, after);
+    load(other, before);
+    load(step, p.steps + k * p.kLanes);
+    lower(candidate, other);
+    candidate += step;
+    lower(best, candidate);
+  }
+  for (; k <= p.reach; ++k, after += apart, before -= apart) {
+    load(candidate, after);
+    load(other, before);
+    load(step, p.steps + k * p.kLanes);
+    load(limit, p.limits + k * p.kLanes);
+    lower(candidate, other);
+    lower(candidate, limit);
+    candidate += step;
+    lower(best, candidate);
+  }
 }
 
 // Per value of 8 bits: all ones in the lanes whose bit is not set.
@@ -91,15 +111,20 @@ constexpr auto kNotSet = [] {
   return lanes;
 }();
 
-// The plane z of the surroundings; false: nothing there.
+struct Rows {
+  int first = kMaxWide;
+  int last = -kMaxWide;
+};
+
+// The plane z of the surroundings; returns the rows between which something is occupied.
 template <typename Cell>
-CANOPEER_KERNEL_BODY bool expand_plane(const TileSurroundings& around, int z,
+CANOPEER_KERNEL_BODY Rows expand_plane(const TileSurroundings& around, int z,
                                        const Passes<Cell>& p) {
   const int blocks = p.wide / kBlockSide;
   const VoxelMask* layer =
       around.first + static_cast<std::size_t>(z / kBlockSide) * around.stride_z;
   const auto slice = static_cast<std::size_t>(z % kBlockSide);
-  bool any = false;
+  Rows occupied;
   for (int by = 0; by < blocks; ++by) {
     Cell* rows = p.plane + by * kBlockSide * p.stride;
     std::memset(rows, 0xFF, sizeof(Cell) * static_cast<std::size_t>(kBlockSide * p.stride));
@@ -115,18 +140,18 @@ CANOPEER_KERNEL_BODY bool expand_plane(const TileSurroundings& around, int z,
               rows + y * p.stride + bx * kBlockSide);
       }
     }
-    for (int y = 0; y < kBlockSide; ++y) {
-      p.row_used[by * kBlockSide + y] = (used >> (y * kBlockSide) & 0xFF) != 0;
-    }
-    any |= used != 0;
+    if (used == 0) continue;
+    const int from = by * kBlockSide;
+    occupied.first = std::min(occupied.first, from + std::countr_zero(used) / kBlockSide);
+    occupied.last = from + (63 - std::countl_zero(used)) / kBlockSide;
   }
-  return any;
+  return occupied;
 }
 
 // Squared gaps along y in plane z: two sweeps that count the rows since the last occupied voxel.
 template <typename Cell>
 CANOPEER_KERNEL_BODY void sweep_plane(const Passes<Cell>& p, int z) {
-  Cell* out = p.y_pass + z * kSide * p.stride;
+  Cell* out = p.y_pass + z * p.stride;
   const Line<Cell> limit = Line<Cell>{} + static_cast<Cell>(p.reach + 1);
   const auto one = static_cast<Cell>(1);
   for (int x = 0; x < p.stride; x += p.kLanes) {
@@ -150,96 +175,80 @@ CANOPEER_KERNEL_BODY void sweep_plane(const Passes<Cell>& p, int z) {
       lower(gap, since);
       gap = gap > one ? gap - one : Line<Cell>{};
       gap *= gap;
-      store(gap, out + (y - p.pad) * p.stride + x);
-    }
-  }
-}
-
-// used[y]: some row of the plane within reach is.
-template <typename Cell>
-CANOPEER_KERNEL_BODY void find_used(const Passes<Cell>& p, std::uint8_t* used) {
-  int last = -p.wide;
-  for (int y = p.pad - p.reach, next = y; y < p.pad + kSide + p.reach; ++y) {
-    if (p.row_used[y] == 0) continue;
-    last = y;
-    for (next = std::max({next, p.pad, last - p.reach});
-         next < std::min(last + p.reach + 1, p.pad + kSide); ++next) {
-      used[next - p.pad] = 1;
+      store(gap, out + (y - p.pad) * p.deep * p.stride + x);
     }
   }
 }
 
 template <typename Cell>
-CANOPEER_KERNEL_BODY bool run_y_pass(const TileSurroundings& around, const Passes<Cell>& p) {
-  std::fill_n(p.y_used, p.wide * kSide, std::uint8_t{0});
+CANOPEER_KERNEL_BODY bool run_y_pass(const TileSurroundings& around, Passes<Cell>& p) {
   bool any = false;
   for (int z = p.pad - p.reach; z < p.pad + kSide + p.reach; ++z) {
-    std::uint8_t* used = p.y_used + z * kSide;
-    if (expand_plane(around, z, p)) {
-      find_used(p, used);
-      if (std::find(used, used + kSide, 1) != used + kSide) {
-        any = true;
-        sweep_plane(p, z);
-        continue;
-      }
+    const Rows occupied = expand_plane(around, z, p);
+    const int first = std::clamp(occupied.first - p.reach - p.pad, 0, kSide);
+    const int end = std::clamp(occupied.last + p.reach + 1 - p.pad, 0, kSide);
+    p.first[z] = static_cast<std::uint8_t>(first);
+    p.end[z] = static_cast<std::uint8_t>(end);
+    if (first < end) {
+      any = true;
+      sweep_plane(p, z);
+      continue;
     }
-    std::fill_n(p.y_pass + z * kSide * p.stride, kSide * p.stride, p.far);
+    for (int y = 0; y < kSide; ++y) {
+      std::fill_n(p.y_pass + (y * p.deep + z) * p.stride, p.stride, p.far);
+    }
   }
   return any;
 }
 
+// The row z of the tile (with its pads along x) from the rows of y_pass at some y; false: all far.
 template <typename Cell>
-CANOPEER_KERNEL_BODY void run_z_pass(const Passes<Cell>& p) {
-  const int plane = kSide * p.stride;
-  for (int z = 0; z < kSide; ++z) {
-    for (int y = 0; y < kSide; ++y) {
-      const int middle = z + p.pad;
-      const auto used = [&](int k) {
-        return (p.y_used[(middle + k) * kSide + y] | p.y_used[(middle - k) * kSide + y]) != 0;
-      };
-      int first = 0;
-      while (first <= p.reach && !used(first)) ++first;
-      p.z_used[z * kSide + y] = first <= p.reach;
-      for (int x = 0; first <= p.reach && x < p.stride; x += p.kLanes) {
-        Line<Cell> best = Line<Cell>{} + p.far;
-        const Cell* row = p.y_pass + middle * plane + y * p.stride + x;
-        for (int k = first; k <= p.reach; ++k) {
-          relax(best, row + k * plane, row - k * plane, p.limits + k * p.kLanes,
-                p.steps + k * p.kLanes);
-        }
-        store(best, p.z_pass + z * plane + y * p.stride + x);
-      }
-    }
+CANOPEER_KERNEL_BODY bool relax_along_z(const Passes<Cell>& p, int y, int z) {
+  const auto used = [&](int plane) { return y >= p.first[plane] && y < p.end[plane]; };
+  int first = 0;
+  while (first <= p.reach && !used(z + p.pad + first) && !used(z + p.pad - first)) ++first;
+  if (first > p.reach) return false;
+  for (int x = 0; x < p.stride; x += p.kLanes) {
+    Line<Cell> best = Line<Cell>{} + p.far;
+    relax(best, p.y_pass + (y * p.deep + z + p.pad) * p.stride + x, p.stride, first, p);
+    store(best, p.z_pass + z * p.stride + x);
   }
-}
-
-template <typename Cell>
-CANOPEER_KERNEL_BODY void run_x_pass(const Passes<Cell>& p, std::uint8_t* out) {
-  for (int i = 0; i < kSide * kSide; ++i) {
-    TileRow<Cell> best = TileRow<Cell>{} + p.far;
-    const Cell* row = p.z_pass + i * p.stride + p.pad;
-    for (int k = 0; p.z_used[i] != 0 && k <= p.reach; ++k) {
-      relax(best, row + k, row - k, p.limits + k * p.kLanes, p.steps + k * p.kLanes);
-    }
-    store(best, out + static_cast<std::size_t>(i) * sizeof best);
-  }
-}
-
-template <typename Cell>
-CANOPEER_KERNEL_BODY bool run_body(const TileSurroundings& around, const Passes<Cell>& p,
-                                   std::vector<std::uint8_t>& out) {
-  if (!run_y_pass(around, p)) return false;
-  run_z_pass(p);
-  out.resize(kSide * kSide * kSide * sizeof(Cell));
-  run_x_pass(p, out.data());
   return true;
 }
 
-#define CANOPEER_KERNELS(NAME, TARGET)                                          \
-  template <typename Cell>                                                      \
-  TARGET bool run_##NAME(const TileSurroundings& around, const Passes<Cell>& p, \
-                         std::vector<std::uint8_t>& out) {                      \
-    return run_body(around, p, out);                                            \
+template <typename Cell>
+CANOPEER_KERNEL_BODY void relax_along_x(const Passes<Cell>& p, int z, Cell* out) {
+  TileRow<Cell> best = TileRow<Cell>{} + p.far;
+  relax(best, p.z_pass + z * p.stride + p.pad, 1, 0, p);
+  store(best, out);
+}
+
+template <typename Cell>
+CANOPEER_KERNEL_BODY bool run_body(const TileSurroundings& around, Passes<Cell>& p,
+                                   std::vector<std::uint8_t>& out) {
+  if (!run_y_pass(around, p)) return false;
+  out.resize(kSide * kSide * kSide * sizeof(Cell));
+  auto* cells = reinterpret_cast<Cell*>(out.data());
+  std::array<bool, kSide> used;
+  for (int y = 0; y < kSide; ++y) {
+    for (int z = 0; z < kSide; ++z) used[z] = relax_along_z(p, y, z);
+    for (int z = 0; z < kSide; ++z) {
+      Cell* row = cells + (z * kSide + y) * kSide;
+      if (used[z]) {
+        relax_along_x(p, z, row);
+      } else {
+        std::fill_n(row, kSide, p.far);
+      }
+    }
+  }
+  return true;
+}
+
+#define CANOPEER_KERNELS(NAME, TARGET)                                    \
+  template <typename Cell>                                                \
+  TARGET bool run_##NAME(const TileSurroundings& around, Passes<Cell>& p, \
+                         std::vector<std::uint8_t>& out) {                \
+    return run_body(around, p, out);                                      \
   }
 
 CANOPEER_KERNELS(scalar, )
@@ -266,20 +275,18 @@ Passes<Cell> take_memory(int halo, int reach, TileScratch& scratch) {
   p.stride = (p.wide + p.kLanes - 1) / p.kLanes * p.kLanes;
   p.far = static_cast<Cell>(reach * reach);
   const int row_lines = p.stride / p.kLanes;
-  const int rows = p.wide + kSide + p.wide * kSide + kSide * kSide;
+  p.deep = p.wide + 1;
+  const int rows = p.wide + kSide + kSide * p.deep + kSide;
   scratch.lines.resize(static_cast<std::size_t>(2 * (reach + 1) + rows * row_lines));
-  scratch.used.resize(static_cast<std::size_t>(p.wide + p.wide * kSide + kSide * kSide));
   p.steps = reinterpret_cast<Cell*>(scratch.lines.data());
   p.limits = p.steps + (reach + 1) * p.kLanes;
   p.plane = p.limits + (reach + 1) * p.kLanes;
   p.ahead = p.plane + p.wide * p.stride;
   p.y_pass = p.ahead + kSide * p.stride;
-  p.z_pass = p.y_pass + p.wide * kSide * p.stride;
-  p.row_used = scratch.used.data();
-  p.y_used = p.row_used + p.wide;
-  p.z_used = p.y_used + p.wide * kSide;
+  p.z_pass = p.y_pass + kSide * p.deep * p.stride;
   for (int k = 0; k <= reach; ++k) {
     const int gap = std::max(0, k - 1);
+    if (p.far + gap * gap <= std::numeric_limits<Cell>::max()) p.reach_unlimited = k;
     std::fill_n(p.steps + k * p.kLanes, p.kLanes, static_cast<Cell>(gap * gap));
     std::fill_n(p.limits + k * p.kLanes, p.kLanes, static_cast<Cell>(p.far - gap * gap));
   }
@@ -289,7 +296,7 @@ Passes<Cell> take_memory(int halo, int reach, TileScratch& scratch) {
 template <typename Cell>
 void run(const TileSurroundings& around, int reach, TileScratch& scratch,
          std::vector<std::uint8_t>& out, [[maybe_unused]] SimdLevel simd) {
-  const Passes<Cell> p = take_memory<Cell>(around.halo, reach, scratch);
+  Passes<Cell> p = take_memory<Cell>(around.halo, reach, scratch);
   if (!CANOPEER_AT_LEVEL(simd, Kernels<Cell>::kRun)(around, p, out))
     std::vector<std::uint8_t>().swap(out);
 }

@@ -27,7 +27,6 @@ struct TileScratch {
     std::array<std::uint8_t, 64> bytes;
   };
   std::vector<Line> lines;
-  std::vector<std::uint8_t> used;
 };
 
 /// Squares up to 15² fit a byte; others take two (native order).
