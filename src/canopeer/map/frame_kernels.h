@@ -51,7 +51,7 @@ struct FlatPyramid {
   float largest = 0;            ///< depth of all
 };
 
-/// Up to 64 cubes of one size, by the box around their voxels' centres in the camera frame, m.
+/// Up to 64 cubes of one size, spanned by their voxels' centres; camera frame, m.
 /// Lanes beyond `count` hold anything finite.
 struct CubeLanes {
   static constexpr std::size_t kMax = 64;
@@ -59,7 +59,9 @@ struct CubeLanes {
   alignas(64) std::array<float, kMax> x;  ///< centres
   alignas(64) std::array<float, kMax> y;
   alignas(64) std::array<float, kMax> z;
-  std::array<float, 3> half{};  ///< half the box's sides
+  /// Half edges, camera frame: the centres' distance from the farthest voxels' on each map axis.
+  std::array<std::array<float, 3>, 3> edges{};
+  float half = 0;  ///< half the depth they span
 };
 
 /// Bit i: cube i. The rest must be looked at voxel by voxel.

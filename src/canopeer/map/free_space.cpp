@@ -21,8 +21,8 @@ constexpr int kChunkSide = kChunkBlocks * kBlockSide;           // voxels
 // surface.
 constexpr int kPartSide = kBlockSide / 2;
 
-// Cubes of one size side by side: where their centres are from the first voxel's corner, camera
-// frame, and half the box around their voxels' centres.
+// Cubes of one size side by side: where their centres are from the first voxel's corner, and the
+// half edges between their voxels' centres; camera frame.
 struct CubePattern {
   CubePattern(const Eigen::Matrix3d& R_camera_world, int cubes_a_side, int side,
               double resolution_m) {
@@ -37,9 +37,12 @@ struct CubePattern {
       y[i] = offset.y();
       z[i] = offset.z();
     }
-    const Eigen::Vector3f box =
-        (R_camera_world.cwiseAbs() * Vec3::Constant(0.5 * (side - 1) * resolution_m)).cast<float>();
-    half = {box.x(), box.y(), box.z()};
+    const Eigen::Matrix3f half_edges =
+        (R_camera_world * (0.5 * (side - 1) * resolution_m)).cast<float>();
+    for (int axis = 0; axis < 3; ++axis) {
+      edges[axis] = {half_edges(0, axis), half_edges(1, axis), half_edges(2, axis)};
+    }
+    half = half_edges.row(2).cwiseAbs().sum();
   }
 
   // The cubes when the first voxel's corner lies at `corner`, as lanes first, first + 1 …
@@ -50,12 +53,14 @@ struct CubePattern {
       lanes.z[first + i] = corner.z() + z[i];
     }
     lanes.count = first + count;
+    lanes.edges = edges;
     lanes.half = half;
   }
 
   std::size_t count = 0;
   std::array<float, CubeLanes::kMax> x{}, y{}, z{};
-  std::array<float, 3> half{};
+  std::array<std::array<float, 3>, 3> edges{};
+  float half = 0;
 };
 
 // What a camera sees of the map's chunks, blocks and voxels. All lengths in camera coordinates are

@@ -3,6 +3,7 @@
 #endif
 
 #include <bit>
+#include <cmath>
 
 #include "canopeer/map/frame_kernel_parts.h"
 #include "canopeer/map/kernel_targets.h"
@@ -68,23 +69,24 @@ CANOPEER_KERNEL_BODY void find_windows(const FlatPyramid& pyramid, const CubeLan
   const auto width = static_cast<float>(pyramid.width);
   const auto height = static_cast<float>(pyramid.height);
   for (std::size_t i = 0; i < cubes.count; ++i) {
-    const float x_low = cubes.x[i] - cubes.half[0], x_high = cubes.x[i] + cubes.half[0];
-    const float y_low = cubes.y[i] - cubes.half[1], y_high = cubes.y[i] + cubes.half[1];
-    const float z_low = cubes.z[i] - cubes.half[2], z_high = cubes.z[i] + cubes.half[2];
+    const float z_low = cubes.z[i] - cubes.half, z_high = cubes.z[i] + cubes.half;
     const float margin = kMargin + kShare * most(z_high, 0.0F);
     const bool behind = (z_high <= 0.0F) | (z_low >= pyramid.largest + margin);
     const bool apart = z_low >= kNearest;
-    // Bounds of x / z over the box.
+    // x / z differs from the centre's by (dx − x/z · dz) / (z + dz), and likewise y / z.
+    const float by_centre = 1.0F / most(cubes.z[i], kNearest);
     const float by_near = 1.0F / most(z_low, kNearest);
-    const float by_far = 1.0F / most(z_high, kNearest);
-    const float u_low =
-        pyramid.fx * (x_low * (x_low < 0.0F ? by_near : by_far)) + pyramid.cx - kPixels;
-    const float u_high =
-        pyramid.fx * (x_high * (x_high < 0.0F ? by_far : by_near)) + pyramid.cx + kPixels;
-    const float v_low =
-        pyramid.fy * (y_low * (y_low < 0.0F ? by_near : by_far)) + pyramid.cy - kPixels;
-    const float v_high =
-        pyramid.fy * (y_high * (y_high < 0.0F ? by_far : by_near)) + pyramid.cy + kPixels;
+    const float x = cubes.x[i] * by_centre, y = cubes.y[i] * by_centre;
+    float wide = 0.0F, high = 0.0F;
+    for (const auto& edge : cubes.edges) {
+      wide += std::abs(edge[0] - x * edge[2]);
+      high += std::abs(edge[1] - y * edge[2]);
+    }
+    const float du = pyramid.fx * (wide * by_near) + kPixels;
+    const float dv = pyramid.fy * (high * by_near) + kPixels;
+    const float u = pyramid.fx * x + pyramid.cx, v = pyramid.fy * y + pyramid.cy;
+    const float u_low = u - du, u_high = u + du;
+    const float v_low = v - dv, v_high = v + dv;
     const bool outside = (u_high < 0.0F) | (v_high < 0.0F) | (u_low >= width) | (v_low >= height);
     const bool inside = (u_low >= 0.0F) & (v_low >= 0.0F) & (u_high < width) & (v_high < height);
     const auto u0 = static_cast<std::int32_t>(least(most(u_low, 0.0F), width - 1.0F));
@@ -144,7 +146,7 @@ CANOPEER_KERNEL_BODY CubeViews classify_body(const FlatPyramid& pyramid, const C
   look_up(pyramid, windows, cubes.count, bounds.data());
   alignas(64) CubeWindows::Flags none{}, all{};
   for (std::size_t i = 0; i < cubes.count; ++i) {
-    const float z_low = cubes.z[i] - cubes.half[2], z_high = cubes.z[i] + cubes.half[2];
+    const float z_low = cubes.z[i] - cubes.half, z_high = cubes.z[i] + cubes.half;
     const float margin = kMargin + kShare * most(z_high, 0.0F);
     const float nearest = bounds[2 * i], farthest = -bounds[2 * i + 1];
     const bool beyond = z_low > farthest + margin;
