@@ -199,17 +199,22 @@ CANOPEER_KERNEL_BODY void find_first_centres(const BlockProjection& projection,
   }
 }
 
-// Bits of half block `i` to where a block's mask has them.
-CANOPEER_KERNEL_BODY void add_half(unsigned i, std::uint64_t bits, VoxelMask& mask) {
-  const unsigned slice = i >> 2 ? kHalf : 0;
-  const unsigned shift = (i & 1) * kHalf + (i >> 1 & 1) * kHalf * kBlockSide;
+// The bits of the eight half blocks to where a block's mask has them.
+CANOPEER_KERNEL_BODY VoxelMask join_halves(const std::uint64_t* halves) {
+  alignas(64) static constexpr std::uint64_t kShift[8] = {0, 4, 32, 36, 0, 4, 32, 36};
+  VoxelMask mask;
   for (unsigned k = 0; k < kHalf; ++k) {
-    // Rows of 4 bits spread to the 8 a mask has.
-    const std::uint64_t rows = bits >> (16 * k) & 0xFFFF;
-    const std::uint64_t spread =
-        (rows & 0xF) | (rows & 0xF0) << 4 | (rows & 0xF00) << 8 | (rows & 0xF000) << 12;
-    mask.slices[slice + k] |= spread << shift;
+    alignas(64) std::uint64_t spread[8];
+    for (unsigned i = 0; i < 8; ++i) {
+      // Rows of 4 bits to the 8 a mask has.
+      const std::uint64_t rows = halves[i] >> (16 * k);
+      spread[i] = ((rows & 0xF) | (rows & 0xF0) << 4 | (rows & 0xF00) << 8 | (rows & 0xF000) << 12)
+                  << kShift[i];
+    }
+    mask.slices[k] = spread[0] | spread[1] | spread[2] | spread[3];
+    mask.slices[k + kHalf] = spread[4] | spread[5] | spread[6] | spread[7];
   }
+  return mask;
 }
 
 // Three passes over the halves to be looked at, so that none waits for what the one before stored.
@@ -223,29 +228,25 @@ CANOPEER_KERNEL_BODY VoxelMask free_in_block_body(const FlatPyramid& camera,
   alignas(64) float depth[kBlockVoxels];
   alignas(64) float surface[kBlockVoxels];
   alignas(64) std::int32_t pixel[kBlockVoxels];
+  alignas(64) std::uint64_t free[8];
+  unsigned looked_at[8];
   std::uint64_t seen[8];
   std::size_t count = 0;
   for (unsigned i = 0; i < 8; ++i) {
+    free[i] = (decided.all_free >> i & 1) != 0 ? ~std::uint64_t{0} : 0;
     if (((decided.none_free | decided.all_free) >> i & 1) != 0) continue;
     const auto& at = first[i & 3];
     const unsigned slice = i >> 2 ? kHalf : 0;
-    seen[i] = project(camera, projection, {at[0] + slice, at[1] + slice, at[2] + slice},
-                      {depth + count, pixel + count});
-    count += kHalfVoxels;
+    seen[count] = project(camera, projection, {at[0] + slice, at[1] + slice, at[2] + slice},
+                          {depth + count * kHalfVoxels, pixel + count * kHalfVoxels});
+    looked_at[count] = i;
+    count += seen[count] != 0;
   }
-  look_up(camera.depth, pixel, count, surface);
-  VoxelMask free;
-  count = 0;
-  for (unsigned i = 0; i < 8; ++i) {
-    if ((decided.none_free >> i & 1) != 0) continue;
-    if ((decided.all_free >> i & 1) != 0) {
-      add_half(i, ~std::uint64_t{0}, free);
-      continue;
-    }
-    add_half(i, nearer(depth + count, surface + count) & seen[i], free);
-    count += kHalfVoxels;
+  look_up(camera.depth, pixel, count * kHalfVoxels, surface);
+  for (std::size_t i = 0; i < count; ++i) {
+    free[looked_at[i]] = nearer(depth + i * kHalfVoxels, surface + i * kHalfVoxels) & seen[i];
   }
-  return free;
+  return join_halves(free);
 }
 
 #define CANOPEER_KERNELS(NAME, TARGET)                                                             \
