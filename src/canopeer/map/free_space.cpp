@@ -219,6 +219,13 @@ FreeSpace find_free_space(const DepthImage& free_depth, const CameraIntrinsics& 
     frustum.find(std::span(chunks).subspan(first, count), found[i]);
   });
   FreeSpace all;
+  std::size_t whole = 0, parts = 0;
+  for (const FreeSpace& part : found) {
+    whole += part.whole.size();
+    parts += part.parts.size();
+  }
+  all.whole.reserve(whole);
+  all.parts.reserve(parts);
   for (const FreeSpace& part : found) {
     all.whole.insert(all.whole.end(), part.whole.begin(), part.whole.end());
     all.parts.insert(all.parts.end(), part.parts.begin(), part.parts.end());

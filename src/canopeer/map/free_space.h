@@ -3,17 +3,12 @@
 #include <vector>
 
 #include "canopeer/geometry/pose.h"
-#include "canopeer/map/block.h"
 #include "canopeer/map/frame_kernels.h"
+#include "canopeer/map/voxel_map.h"
 #include "canopeer/sensing/camera_intrinsics.h"
 #include "canopeer/sensing/image.h"
 
 namespace canopeer {
-
-struct FreeBlock {
-  BlockKey key = 0;
-  VoxelMask free;
-};
 
 /// Blocks that a frame sees free; no key comes twice, no mask is empty.
 struct FreeSpace {

@@ -17,42 +17,29 @@ namespace {
 // is a miss.
 class FrameUpdate {
  public:
-  FrameUpdate(const EndPoints& ends, bool segmented)
-      : ends_(ends), segmented_(segmented), combined_(ends.blocks.size(), false) {
+  FrameUpdate(const EndPoints& ends, FreeSpace free, bool segmented)
+      : ends_(ends),
+        segmented_(segmented),
+        free_(std::move(free)),
+        combined_(ends.blocks.size(), false) {
     updates_.reserve(ends.blocks.size());
-  }
-
-  void add(const FreeSpace& free) {
-    updates_.reserve(free.parts.size() + ends_.blocks.size());
-    for (const FreeBlock& block : free.parts) {
-      const std::uint32_t end = end_points_in(block.key);
-      BlockUpdate& update = updates_.emplace_back();
-      update.key = block.key;
-      update.miss = block.free;
-      if (end != BlockDirectory::kFree) add_end_points(update, end);
-    }
-    all_free_.reserve(free.whole.size());
-    for (const BlockKey key : free.whole) {
+    const auto with_end_points = [this](BlockKey key, const VoxelMask& miss) {
       const std::uint32_t end = end_points_in(key);
-      if (end == BlockDirectory::kFree) {
-        all_free_.push_back(key);
-        continue;
-      }
-      BlockUpdate& update = updates_.emplace_back();
-      update.key = key;
-      update.miss = VoxelMask::all();
-      add_end_points(update, end);
-    }
+      if (end == BlockDirectory::kFree) return false;
+      add(end, miss);
+      return true;
+    };
+    std::erase_if(free_.parts,
+                  [&](const FreeBlock& block) { return with_end_points(block.key, block.free); });
+    std::erase_if(free_.whole,
+                  [&](BlockKey key) { return with_end_points(key, VoxelMask::all()); });
     for (std::uint32_t i = 0; i < ends_.blocks.size(); ++i) {
-      if (combined_[i]) continue;
-      BlockUpdate& update = updates_.emplace_back();
-      update.key = ends_.blocks[i].key;
-      add_end_points(update, i);
+      if (!combined_[i]) add(i, {});
     }
   }
 
   FuseResult apply(VoxelMap& map, SimdLevel simd) const {
-    UpdateResult update = map.apply(updates_, all_free_, simd);
+    UpdateResult update = map.apply(updates_, free_.whole, free_.parts, simd);
     return {ends_.count, update.newly_known, update.updated_voxels, std::move(update.changed)};
   }
 
@@ -67,10 +54,13 @@ class FrameUpdate {
                              : chunk_->slots[BlockDirectory::place_in_chunk(key)];
   }
 
-  void add_end_points(BlockUpdate& update, std::uint32_t end) {
+  void add(std::uint32_t end, const VoxelMask& miss) {
     const EndPoints::Block& block = ends_.blocks[end];
     combined_[end] = true;
+    BlockUpdate& update = updates_.emplace_back();
+    update.key = block.key;
     update.hit = block.hit;
+    update.miss = miss;
     update.miss -= block.hit;
     if (!segmented_) return;
     update.roi_hit = block.roi;
@@ -81,18 +71,16 @@ class FrameUpdate {
 
   const EndPoints& ends_;
   bool segmented_;
+  FreeSpace free_;  // without the blocks that hold end points
   std::vector<bool> combined_;
   std::vector<BlockUpdate> updates_;
-  std::vector<BlockKey> all_free_;
   BlockKey chunk_key_ = ~BlockKey{0};
   const BlockDirectory::Chunk* chunk_ = nullptr;
 };
 
-FuseResult apply(VoxelMap& map, const EndPoints& ends, const FreeSpace& free, bool segmented,
+FuseResult apply(VoxelMap& map, const EndPoints& ends, FreeSpace free, bool segmented,
                  SimdLevel simd) {
-  FrameUpdate update(ends, segmented);
-  update.add(free);
-  return update.apply(map, simd);
+  return FrameUpdate(ends, std::move(free), segmented).apply(map, simd);
 }
 
 }  // namespace
@@ -101,17 +89,17 @@ FuseResult fuse(VoxelMap& map, const RgbdFrame& frame, const Mask& roi,
                 const FusionOptions& options) {
   const FrameKernels& kernels = frame_kernels(options.simd);
   const EndPoints ends = find_end_points(frame, roi, options, map.resolution_m(), kernels);
-  const FreeSpace free = find_free_space(ends.free_depth, frame.intrinsics, frame.T_world_camera,
-                                         map.resolution_m(), kernels);
-  return apply(map, ends, free, !roi.empty(), options.simd);
+  FreeSpace free = find_free_space(ends.free_depth, frame.intrinsics, frame.T_world_camera,
+                                   map.resolution_m(), kernels);
+  return apply(map, ends, std::move(free), !roi.empty(), options.simd);
 }
 
 FuseResult fuse_exact(VoxelMap& map, const RgbdFrame& frame, const Mask& roi,
                       const FusionOptions& options) {
   const FrameKernels& kernels = frame_kernels(options.simd);
   const EndPoints ends = find_end_points(frame, roi, options, map.resolution_m(), kernels);
-  const FreeSpace free = find_crossed_space(frame, ends.free_depth, map.resolution_m(), kernels);
-  return apply(map, ends, free, !roi.empty(), options.simd);
+  FreeSpace free = find_crossed_space(frame, ends.free_depth, map.resolution_m(), kernels);
+  return apply(map, ends, std::move(free), !roi.empty(), options.simd);
 }
 
 }  // namespace canopeer

@@ -29,6 +29,14 @@ void step_scalar(std::int16_t* cells, const VoxelMask& hit, const VoxelMask& mis
   }
 }
 
+void fill_scalar(std::int16_t* cells, const VoxelMask& mask, std::int16_t value) {
+  for (std::size_t z = 0; z < kBlockSide; ++z) {
+    for (std::size_t i = 0; i < kSliceVoxels; ++i) {
+      cells[z * kSliceVoxels + i] = (mask.slices[z] >> i & 1) != 0 ? value : std::int16_t{0};
+    }
+  }
+}
+
 CANOPEER_KERNEL_BODY LogOddsRange miss_all_body(std::int16_t* cells, const LogOddsSteps& steps) {
   const std::int16_t miss = steps.miss;
   const std::int16_t low = steps.min;
@@ -122,6 +130,27 @@ CANOPEER_TARGET_AVX512 void step_avx512(std::int16_t* cells, const VoxelMask& hi
   }
 }
 
+CANOPEER_TARGET_AVX2 void fill_avx2(std::int16_t* cells, const VoxelMask& mask,
+                                    std::int16_t value) {
+  const __m256i lane_bit = _mm256_setr_epi16(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048,
+                                             4096, 8192, 16384, -32768);
+  const __m256i values = _mm256_set1_epi16(value);
+  for (std::size_t i = 0; i < kBlockVoxels; i += 16) {
+    const auto bits = static_cast<std::int16_t>(mask.slices[i / 64] >> i % 64);
+    const __m256i lanes =
+        _mm256_cmpeq_epi16(_mm256_and_si256(_mm256_set1_epi16(bits), lane_bit), lane_bit);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(cells + i), _mm256_and_si256(lanes, values));
+  }
+}
+
+CANOPEER_TARGET_AVX512 void fill_avx512(std::int16_t* cells, const VoxelMask& mask,
+                                        std::int16_t value) {
+  for (std::size_t i = 0; i < kBlockVoxels; i += 32) {
+    const auto lanes = static_cast<__mmask32>(mask.slices[i / 64] >> i % 64);
+    _mm512_storeu_si512(cells + i, _mm512_maskz_set1_epi16(lanes, value));
+  }
+}
+
 CANOPEER_TARGET_AVX2 LogOddsRange miss_all_avx2(std::int16_t* cells, const LogOddsSteps& steps) {
   return miss_all_body(cells, steps);
 }
@@ -131,11 +160,11 @@ CANOPEER_TARGET_AVX512 LogOddsRange miss_all_avx512(std::int16_t* cells,
   return miss_all_body(cells, steps);
 }
 
-constexpr LogOddsKernels kLogOdds_avx2 = {step_avx2, miss_all_avx2};
-constexpr LogOddsKernels kLogOdds_avx512 = {step_avx512, miss_all_avx512};
+constexpr LogOddsKernels kLogOdds_avx2 = {step_avx2, fill_avx2, miss_all_avx2};
+constexpr LogOddsKernels kLogOdds_avx512 = {step_avx512, fill_avx512, miss_all_avx512};
 #endif
 
-constexpr LogOddsKernels kLogOdds_scalar = {step_scalar, miss_all_scalar};
+constexpr LogOddsKernels kLogOdds_scalar = {step_scalar, fill_scalar, miss_all_scalar};
 
 }  // namespace
 

@@ -24,6 +24,8 @@ struct LogOddsKernels {
   /// stepped. No voxel is in both hit and miss.
   void (*step)(std::int16_t* cells, const VoxelMask& hit, const VoxelMask& miss,
                const LogOddsSteps& steps, VoxelMask& above);
+  /// `value` for the voxels of `mask`, 0 for the others.
+  void (*fill)(std::int16_t* cells, const VoxelMask& mask, std::int16_t value);
   /// A miss for every voxel; `above` is not touched. Returns the least and largest value now.
   LogOddsRange (*miss_all)(std::int16_t* cells, const LogOddsSteps& steps);
 };

@@ -49,6 +49,12 @@ struct BlockUpdate {
   const std::uint8_t* roi_confidence = nullptr;
 };
 
+/// Voxels of a block that are seen free: a miss each.
+struct FreeBlock {
+  BlockKey key = 0;
+  VoxelMask free;
+};
+
 struct UpdateResult {
   std::int64_t newly_known = 0;     ///< voxels unknown before, known after
   std::int64_t updated_voxels = 0;  ///< voxels that got a hit or a miss
@@ -114,11 +120,11 @@ class VoxelMap {
     }
   }
 
-  /// Applies an observation: `updates`, and a miss for every voxel of the blocks `all_free`; no key
-  /// twice, in neither. Parallel over blocks, the same result with any number of threads and any
-  /// level of `simd` the machine has.
+  /// Applies an observation: `updates`, a miss for every voxel of the blocks `all_free`, and for
+  /// the voxels of `free`; no key twice, in none of them. Parallel over blocks, the same result
+  /// with any number of threads and any level of `simd` the machine has.
   UpdateResult apply(std::span<const BlockUpdate> updates, std::span<const BlockKey> all_free = {},
-                     SimdLevel simd = best_simd_level());
+                     std::span<const FreeBlock> free = {}, SimdLevel simd = best_simd_level());
   /// Sets a voxel's occupancy as a map file gives it (clamped, then rounded to 1/2048).
   void set_occupancy_log_odds(const VoxelIndex& voxel, double log_odds);
   void set_roi_log_odds(const VoxelIndex& voxel, double log_odds);
@@ -139,7 +145,8 @@ class VoxelMap {
   struct Place {
     std::uint32_t slot = 0;
     std::uint8_t* summary = nullptr;
-    const BlockUpdate* update = nullptr;  // nullptr: a miss for every voxel
+    const BlockUpdate* update = nullptr;
+    const VoxelMask* miss = nullptr;  // neither: a miss for every voxel
   };
   struct Outcome {
     bool changed = false, uniform = false;
@@ -152,10 +159,12 @@ class VoxelMap {
   [[nodiscard]] FixedPoint after_miss(FixedPoint value) const;
   std::uint32_t own_log_odds(Block& block, const VoxelMask& observed);
   std::uint32_t own_roi_log_odds(Block& block);
-  bool apply_alike(const BlockUpdate& update, const Place& place, UpdateResult& result);
+  bool apply_alike(const VoxelMask& miss, const Place& place, UpdateResult& result);
   bool apply_uniform(const Place& place, UpdateResult& result);
   void take_storage(const BlockUpdate& update, const Place& place);
   Outcome apply(const BlockUpdate& update, const Place& place, const LogOddsKernels& kernels);
+  Outcome apply_misses(const VoxelMask& miss, const Place& place, const LogOddsKernels& kernels);
+  Outcome finish(const BlockMasks& before, int stepped, const Place& place);
   Outcome apply_all_free(const Place& place, const LogOddsKernels& kernels);
   void step_roi(const BlockUpdate& update, const Block& block, const LogOddsKernels& kernels,
                 VoxelMask& roi);

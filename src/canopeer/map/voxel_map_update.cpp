@@ -55,11 +55,7 @@ std::uint32_t VoxelMap::own_log_odds(Block& block, const VoxelMask& observed) {
     unused_log_odds_.pop_back();
   }
   BlockLogOdds& cells = log_odds_.own(block.log_odds);
-  cells.fill(0);
-  LogOddsSteps steps;
-  steps.miss = steps.min = steps.max = block.uniform;
-  VoxelMask above;
-  log_odds_kernels(best_simd_level()).step(cells.data(), {}, observed, steps, above);
+  log_odds_kernels(best_simd_level()).fill(cells.data(), observed, block.uniform);
   return block.log_odds;
 }
 
@@ -93,20 +89,21 @@ VoxelMap::Outcome VoxelMap::compare(const BlockMasks& before, const BlockMasks& 
 
 // Misses that leave a block's observed voxels with one value for all: the first ones, the same ones
 // again, or others when none was missed more than once. False: they would not.
-bool VoxelMap::apply_alike(const BlockUpdate& update, const Place& place, UpdateResult& result) {
-  if (blocks_[place.slot].log_odds != kNone || update.hit.any() || update.roi_hit.any() ||
-      update.roi_miss.any()) {
-    return false;
+bool VoxelMap::apply_alike(const VoxelMask& miss, const Place& place, UpdateResult& result) {
+  if ((*place.summary & BlockSummary::kSettled) != 0) {  // nothing can move
+    result.updated_voxels += miss.count();
+    return true;
   }
+  if (blocks_[place.slot].log_odds != kNone) return false;
   const FixedPoint first = after_miss(0);
   const VoxelMask& observed = masks_[place.slot].observed;
   FixedPoint value = first;
   if (observed.any()) {
     VoxelMask again = observed;
-    again &= update.miss;
+    again &= miss;
     value = blocks_[place.slot].uniform;
     if (again.any()) {
-      if (!(observed == update.miss)) return false;
+      if (!(observed == miss)) return false;
       value = after_miss(value);
     } else if (value != first) {
       return false;
@@ -116,10 +113,10 @@ bool VoxelMap::apply_alike(const BlockUpdate& update, const Place& place, Update
   BlockMasks& masks = masks_.own(place.slot);
   const BlockMasks before = masks;
   block.uniform = value;
-  masks.observed |= update.miss;
+  masks.observed |= miss;
   masks.occupied = value >= steps_.threshold ? masks.observed : VoxelMask{};
   Outcome outcome = compare(before, masks);
-  outcome.stepped = update.miss.count();
+  outcome.stepped = miss.count();
   if (outcome.changed) {
     *place.summary = summary_of(masks);
     block.version = updates_;
@@ -163,12 +160,27 @@ VoxelMap::Outcome VoxelMap::apply(const BlockUpdate& update, const Place& place,
   kernels.step(log_odds_.owned(block.log_odds).data(), update.hit, update.miss, steps_,
                masks.occupied);
   if (update.roi_hit.any() || update.roi_miss.any()) step_roi(update, block, kernels, masks.roi);
+  return finish(before, stepped.count(), place);
+}
+
+VoxelMap::Outcome VoxelMap::apply_misses(const VoxelMask& miss, const Place& place,
+                                         const LogOddsKernels& kernels) {
+  BlockMasks& masks = masks_.owned(place.slot);
+  const BlockMasks before = masks;
+  masks.observed |= miss;
+  kernels.step(log_odds_.owned(blocks_[place.slot].log_odds).data(), {}, miss, steps_,
+               masks.occupied);
+  return finish(before, miss.count(), place);
+}
+
+VoxelMap::Outcome VoxelMap::finish(const BlockMasks& before, int stepped, const Place& place) {
+  const BlockMasks& masks = masks_[place.slot];
   *place.summary &= static_cast<std::uint8_t>(~BlockSummary::kSettled);
   Outcome outcome = compare(before, masks);
-  outcome.stepped = stepped.count();
+  outcome.stepped = stepped;
   if (!outcome.changed) return outcome;
   *place.summary = summary_of(masks);
-  block.version = updates_;
+  blocks_.owned(place.slot).version = updates_;
   return outcome;
 }
 
@@ -243,7 +255,8 @@ void VoxelMap::count(const Outcome& outcome, std::uint32_t slot, UpdateResult& r
 
 // What is done in a few words is done at once; the rest, with its storage in place, in parallel.
 UpdateResult VoxelMap::apply(std::span<const BlockUpdate> updates,
-                             std::span<const BlockKey> all_free, SimdLevel simd) {
+                             std::span<const BlockKey> all_free, std::span<const FreeBlock> free,
+                             SimdLevel simd) {
   ++updates_;
   UpdateResult result;
   Chunks chunks(directory_);
@@ -256,17 +269,21 @@ UpdateResult VoxelMap::apply(std::span<const BlockUpdate> updates,
     return place;
   };
   std::vector<Place> places;
-  places.reserve(updates.size());
+  places.reserve(updates.size() + free.size());
   for (const BlockUpdate& update : updates) {
     Place place = place_of(update.key);
-    const bool settled = (*place.summary & BlockSummary::kSettled) != 0;
-    if (settled && !update.hit.any() && !update.roi_hit.any() && !update.roi_miss.any()) {
-      result.updated_voxels += update.miss.count();  // nothing can move
-    } else if (!apply_alike(update, place, result)) {
-      take_storage(update, place);
-      place.update = &update;
-      places.push_back(place);
-    }
+    const bool misses = !update.hit.any() && !update.roi_hit.any() && !update.roi_miss.any();
+    if (misses && apply_alike(update.miss, place, result)) continue;
+    take_storage(update, place);
+    place.update = &update;
+    places.push_back(place);
+  }
+  for (const FreeBlock& block : free) {
+    Place place = place_of(block.key);
+    if (apply_alike(block.free, place, result)) continue;
+    own_log_odds(blocks_.own(place.slot), masks_.own(place.slot).observed);
+    place.miss = &block.free;
+    places.push_back(place);
   }
   for (const BlockKey key : all_free) {
     const Place place = place_of(key);
@@ -276,14 +293,15 @@ UpdateResult VoxelMap::apply(std::span<const BlockUpdate> updates,
   }
   const LogOddsKernels& kernels = log_odds_kernels(simd);
   std::vector<Outcome> outcomes(places.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, outcomes.size(), 64),
-                    [&](const auto& range) {
-                      for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                        const Place& place = places[i];
-                        outcomes[i] = place.update != nullptr ? apply(*place.update, place, kernels)
-                                                              : apply_all_free(place, kernels);
-                      }
-                    });
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, outcomes.size(), 64), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+          const Place& place = places[i];
+          outcomes[i] = place.update != nullptr ? apply(*place.update, place, kernels)
+                        : place.miss != nullptr ? apply_misses(*place.miss, place, kernels)
+                                                : apply_all_free(place, kernels);
+        }
+      });
   for (std::size_t i = 0; i < outcomes.size(); ++i) count(outcomes[i], places[i].slot, result);
   observed_voxels_ += result.newly_known;
   std::sort(result.changed.begin(), result.changed.end());
