@@ -51,8 +51,8 @@ DepthPyramid::DepthPyramid(const DepthImage& depth, const CameraIntrinsics& k,
   const int high = (depth.height() + 1) / 2;
   const std::size_t level = static_cast<std::size_t>(wide) * static_cast<std::size_t>(high);
   CANOPEER_CHECK(2 * level * kTop < (std::size_t{1} << 31), "the depth image is too large");
-  bounds_.resize(2 * level * kTop);
-  halve(depth, wide, high, kernels, bounds_.data());
+  bounds_.reset(new float[2 * level * kTop]);  // each is written below
+  halve(depth, wide, high, kernels, bounds_.get());
   for (int l = 1; l < kTop; ++l) {
     const std::size_t below = 2 * static_cast<std::size_t>(l - 1) * level;
     const int shift = 1 << (l - 1);  // half a window, in windows
@@ -65,7 +65,7 @@ DepthPyramid::DepthPyramid(const DepthImage& depth, const CameraIntrinsics& k,
   flat_.cx = static_cast<float>(k.cx);
   flat_.cy = static_cast<float>(k.cy);
   flat_.depth = depth.pixels().data();
-  flat_.bounds = bounds_.data();
+  flat_.bounds = bounds_.get();
   flat_.top = kTop;
   flat_.wide = wide;
   flat_.level_size = static_cast<std::int32_t>(level);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <memory>
 
 #include "canopeer/map/frame_kernels.h"
 #include "canopeer/sensing/camera_intrinsics.h"
@@ -24,7 +24,7 @@ class DepthPyramid {
 
  private:
   FlatPyramid flat_;
-  std::vector<float> bounds_;
+  std::unique_ptr<float[]> bounds_;
 };
 
 }  // namespace canopeer

@@ -1,7 +1,7 @@
 #include "canopeer/map/end_points.h"
 
 #include <algorithm>
-#include <limits>
+#include <array>
 
 #include "canopeer/base/check.h"
 
@@ -72,6 +72,29 @@ class RowProjection {
   std::vector<std::int32_t> x_, y_, z_, is_end_;
 };
 
+// A directory whose latest answers are at hand: an image's rows come by the same blocks again and
+// again.
+class RecentBlocks {
+ public:
+  explicit RecentBlocks(BlockDirectory& directory) : directory_(directory) {
+    entries_.fill({~BlockKey{0}, 0});
+  }
+  std::uint32_t find_or_add(BlockKey key) {
+    Entry& entry = entries_[(key ^ key >> 18 ^ key >> 36) % kEntries];
+    if (entry.key != key) entry = {key, directory_.find_or_add(key)};
+    return entry.slot;
+  }
+
+ private:
+  static constexpr std::size_t kEntries = 512;  // three bits of each index
+  struct Entry {
+    BlockKey key;
+    std::uint32_t slot;
+  };
+  BlockDirectory& directory_;
+  std::array<Entry, kEntries> entries_;
+};
+
 }  // namespace
 
 EndPoints find_end_points(const RgbdFrame& frame, const Mask& roi, const FusionOptions& options,
@@ -82,8 +105,9 @@ EndPoints find_end_points(const RgbdFrame& frame, const Mask& roi, const FusionO
   EndPoints ends;
   ends.free_depth = DepthImage(k.width, k.height);
   RowProjection row(frame, options, resolution_m);
-  VoxelIndex last_block = VoxelIndex::Constant(std::numeric_limits<int>::min());
+  BlockKey key = ~BlockKey{0};
   std::uint32_t slot = 0;
+  RecentBlocks recent(ends.directory);
   for (int v = 0; v < k.height; ++v) {
     row.project(v, &ends.free_depth.at(0, v), kernels);
     const std::uint8_t* roi_row = roi.empty() ? nullptr : &roi.at(0, v);
@@ -91,12 +115,9 @@ EndPoints find_end_points(const RgbdFrame& frame, const Mask& roi, const FusionO
       if (!row.is_end(u)) continue;
       ++ends.count;
       const VoxelIndex voxel = row.voxel(u);
-      const VoxelIndex block(voxel.x() >> kBlockShift, voxel.y() >> kBlockShift,
-                             voxel.z() >> kBlockShift);
-      if (block != last_block) {
-        last_block = block;
-        const BlockKey key = pack_block(block.x(), block.y(), block.z());
-        slot = ends.directory.find_or_add(key);
+      if (const BlockKey now = block_key(voxel); now != key) {
+        key = now;
+        slot = recent.find_or_add(key);
         if (slot == ends.blocks.size()) {
           ends.blocks.push_back({key, {}, {}});
           if (graded) ends.confidences.push_back({});

@@ -181,20 +181,22 @@ using FirstCentres = float[4][3][kBlockSide];
 CANOPEER_KERNEL_BODY void find_first_centres(const BlockProjection& projection,
                                              const std::array<int, 3>& corner,
                                              FirstCentres& first) {
+  using Slices = double __attribute__((vector_size(sizeof(double) * kBlockSide)));
+  using FloatSlices = float __attribute__((vector_size(sizeof(float) * kBlockSide)));
   const auto centre = [&](std::size_t axis, int steps) {
     return (corner[axis] + steps + 0.5) * projection.resolution_m;
   };
-  double z[kBlockSide];
-  for (int slice = 0; slice < kBlockSide; ++slice) z[slice] = centre(2, slice);
-  for (int column = 0; column < 4; ++column) {
-    const double x = centre(0, (column & 1) * kHalf);
-    const double y = centre(1, (column >> 1) * kHalf);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto& row = projection.rows[axis];
+  Slices z = {0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5};
+  z = (z + static_cast<double>(corner[2])) * projection.resolution_m;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto& row = projection.rows[axis];
+    const Slices up = row[2] * z;
+    for (int column = 0; column < 4; ++column) {
+      const double x = centre(0, (column & 1) * kHalf);
+      const double y = centre(1, (column >> 1) * kHalf);
       const double across = row[0] * x + row[1] * y;
-      for (int slice = 0; slice < kBlockSide; ++slice) {
-        first[column][axis][slice] = static_cast<float>(across + row[2] * z[slice] + row[3]);
-      }
+      const auto at = __builtin_convertvector(across + up + row[3], FloatSlices);
+      std::memcpy(first[column][axis], &at, sizeof at);
     }
   }
 }
