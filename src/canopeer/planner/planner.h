@@ -40,7 +40,7 @@ struct Decision {
 };
 
 /// The map as one frame left it, its distances and a checker on them, for readers in other threads
-/// while the next frame is fused. Never changed; costs a pointer a page of the map and a tile of
+/// while the next frame is fused. Never changed; costs a pointer a page of the map and a copy of
 /// the distances.
 struct MapSnapshot {
   MapSnapshot(const VoxelMap& map_now, const DistanceField& field_now,
