@@ -170,7 +170,8 @@ std::string SvgPlot::marks_svg(const Frame& f) const {
   }
   for (const Mark& mark : y_marks_) {
     svg += line_at(f.left, f.y(mark.at), f.right, f.y(mark.at), "goal");
-    svg += text_at(f.right, f.y(mark.at) + 14.0, "end", "tick", mark.label);
+    // On the left, where courses that grow towards the mark have not got to it.
+    svg += text_at(f.left + 4.0, f.y(mark.at) + 14.0, "start", "tick", mark.label);
   }
   return svg;
 }
