@@ -1,8 +1,9 @@
 // Fruits of recorded runs as the published system would have counted them: each frame is rendered
 // anew at its recorded pose, searched for fruit as the mission does, and given to the published
 // chain from pixels to fruits (published_surface.h). Its clusters are paired with the true fruits
-// greedily, up to 0.20 m, as the paper counts. Prints a line a run:
-//   published_count MISSION.yaml RUN_DIR…
+// greedily, up to 0.20 m, as the paper counts. Prints a line a run. Settings see the same poses
+// with another camera or detector, say noise=d435:
+//   published_count MISSION.yaml [KEY=VALUE…] RUN_DIR…
 #include <cstdio>
 #include <cstdlib>
 
@@ -28,10 +29,10 @@ struct Count {
   bool every_view = true;  ///< or only where the arm stood still to plan the next motion
 };
 
-void count(const std::string& mission, const std::string& run_dir) {
+void count(const std::string& mission, Overrides settings, const std::string& run_dir) {
   const RunRecord record = must(read_record(run_dir));
-  const auto file = must(load_mission(mission, {{"seed", std::to_string(record.header.seed)}},
-                                      {CANOPEER_SOURCE_DIR "/compute_tables"}));
+  settings.emplace_back("seed", std::to_string(record.header.seed));
+  const auto file = must(load_mission(mission, settings, {CANOPEER_SOURCE_DIR "/compute_tables"}));
   const auto world = must(build_world(file.world, file.mission.seed));
   const Renderer renderer(world.scene);
   RgbdSensorOptions options = file.simulation.sensor;
@@ -71,10 +72,19 @@ void count(const std::string& mission, const std::string& run_dir) {
 
 int main(int argc, char** argv) {
   if (argc < 3) {
-    std::fprintf(stderr, "usage: published_count MISSION.yaml RUN_DIR…\n");
+    std::fprintf(stderr, "usage: published_count MISSION.yaml [KEY=VALUE…] RUN_DIR…\n");
     return 2;
   }
   std::printf("counted: all points; with outlier removal; the same, where the arm stood only\n");
-  for (int i = 2; i < argc; ++i) canopeer::count(argv[1], argv[i]);
+  canopeer::Overrides settings;
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = argv[i];
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos) {
+      canopeer::count(argv[1], settings, word);
+    } else {
+      settings.emplace_back(word.substr(0, equals), word.substr(equals + 1));
+    }
+  }
   return 0;
 }
