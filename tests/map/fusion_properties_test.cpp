@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 #include <octomap/octomap.h>
 
+#include <cmath>
 #include <limits>
+#include <map>
 
 #include "ball_scene.h"
 #include "canopeer/map/view_cast.h"
+#include "canopeer/map/voxel_union.h"
 #include "same_map.h"
 
 namespace canopeer {
@@ -207,6 +210,37 @@ VoxelSet random_set(Rng& rng) {
     blocks.push_back(block);
   }
   return VoxelSet(std::move(blocks));
+}
+
+// Blocks that share their places in the table, and more than it has room for at first.
+TEST(VoxelSetLaws, AUnionOfManyIsWhatMergingThemGives) {
+  Rng rng(13, "unions");
+  VoxelUnion together;
+  for (int round = 0; round < 4; ++round) {
+    VoxelSet merged;
+    together.clear();
+    EXPECT_EQ(together.count(), 0);
+    const int far = round == 2 ? 100 : 2;
+    for (int i = 0; i < 12; ++i) {
+      std::map<BlockKey, VoxelSet::Block> blocks;
+      for (int b = 0; b < (round == 2 ? 4000 : 60); ++b) {
+        const auto index = [&](int step) {
+          return step * static_cast<int>(std::floor(rng.uniform(-far, far)));
+        };
+        const BlockKey key = pack_block(index(round == 1 ? 64 : 1), index(1), index(32));
+        VoxelSet::Block& block = blocks[key];
+        block.key = key;
+        block.mask.slices[0] |= std::uint64_t{1} << b % 64;
+      }
+      std::vector<VoxelSet::Block> list;
+      for (const auto& [key, block] : blocks) list.push_back(block);
+      const VoxelSet set(std::move(list));
+      merged.merge(set);
+      together.add(set);
+      EXPECT_EQ(together.count(), merged.count());
+    }
+    EXPECT_EQ(together.set(), merged);
+  }
 }
 
 TEST(VoxelSetLaws, UnionLosesNothingAndDifferenceIsWhatIsNotInTheOther) {
