@@ -12,7 +12,7 @@ namespace canopeer {
 namespace {
 
 struct Measured {
-  double seconds = 0;  // CPU time of one iteration
+  double seconds = 0;  // of one iteration: CPU time, or by the clock if the run asks for it
   double items_per_s = 0;
   std::map<std::string, double> counters{};
 };
@@ -39,7 +39,9 @@ class Collector : public benchmark::ConsoleReporter {
     const double iterations =
         static_cast<double>(std::max<benchmark::IterationCount>(1, run.iterations));
     Measured one;
-    one.seconds = run.cpu_accumulated_time / iterations;
+    const bool by_the_clock = run.run_name.time_type == "real_time";
+    one.seconds =
+        (by_the_clock ? run.real_accumulated_time : run.cpu_accumulated_time) / iterations;
     one.items_per_s = 1 / one.seconds;
     for (const auto& [name, counter] : run.counters) {
       if (name == "items_per_second") one.items_per_s = counter.value;

@@ -41,6 +41,7 @@ struct MapFuseArguments {
   std::string out;
   double resolution_m = 0.01;
   double max_range_m = 3.0;
+  bool clear_no_return = false;
   int every = 1;
   int threads = 0;  ///< 0: all cores
   std::string camera;

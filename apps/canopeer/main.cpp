@@ -178,6 +178,8 @@ void add_map_fuse(CLI::App& map, MapFuseArguments& a) {
   fuse->add_option("--max-range", a.max_range_m, "Farther points only free space; metres")
       ->check(CLI::Range(0.01, 1000.0))
       ->capture_default_str();
+  fuse->add_flag("--clear-no-return", a.clear_no_return,
+                 "Pixels without depth free space up to --max-range (images, not clouds)");
   fuse->add_option("--every", a.every, "Take every N-th frame only")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();

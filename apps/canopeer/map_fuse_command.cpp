@@ -60,11 +60,14 @@ Fused fuse_all(const MapFuseArguments& arguments, const Recording& recording, Vo
   const auto step = static_cast<std::size_t>(arguments.every);
   const std::size_t frames = (recording.size() + step - 1) / step;
   ReadAhead reader(recording, step, arguments.threads != 1);
+  FusionOptions fusion;
+  fusion.max_range_m = arguments.max_range_m;
+  fusion.clear_no_return = arguments.clear_no_return;
   ProgressBar bar(arguments.quiet);
   Fused fused;
   for (std::size_t i = 0; i < recording.size() && !stop; i += step) {
     const Observation observation = value_or_stop(reader.load(i), kBadInput);
-    const auto points = fuse_observation(map, observation, arguments.max_range_m);
+    const auto points = fuse_observation(map, observation, fusion);
     if (!points) stop_with(kBadInput, {recording.name(i) + ": " + points.error().message});
     fused.points += *points;
     ++fused.frames;

@@ -7,7 +7,6 @@
 #include "canopeer/config/camera_file.h"
 #include "canopeer/detect/color_detector.h"
 #include "canopeer/map/cloud_fusion.h"
-#include "canopeer/map/fusion.h"
 #include "canopeer/sensing/png.h"
 #include "canopeer/sensing/tum_sequence.h"
 
@@ -154,9 +153,9 @@ Expected<std::unique_ptr<Recording>> open_recording(const MapFuseArguments& argu
 }
 
 Expected<std::int64_t> fuse_observation(VoxelMap& map, const Observation& observation,
-                                        double max_range_m) {
+                                        const FusionOptions& fusion) {
   CloudFusionOptions options;
-  options.max_range_m = max_range_m;
+  options.max_range_m = fusion.max_range_m;
   CloudScan scan;
   if (const auto* cloud = std::get_if<PosedCloud>(&observation)) {
     scan.points = cloud->file.cloud.points;
@@ -168,8 +167,6 @@ Expected<std::int64_t> fuse_observation(VoxelMap& map, const Observation& observ
   const auto& [frame, roi] = std::get<SegmentedFrame>(observation);
   scan.T_world_points = frame.T_world_camera;
   if (auto fits = check_placement(map, scan, options); !fits) return tl::unexpected(fits.error());
-  FusionOptions fusion;
-  fusion.max_range_m = max_range_m;
   return fuse(map, frame, roi, fusion).fused_points;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <variant>
 
+#include "canopeer/map/fusion.h"
 #include "canopeer/map/voxel_map.h"
 #include "canopeer/sensing/cloud_folder.h"
 #include "canopeer/sensing/rgbd_frame.h"
@@ -36,6 +37,6 @@ class Recording {
 
 /// Fuses an observation into the map; returns its end points. Fails when its pose cannot be.
 [[nodiscard]] Expected<std::int64_t> fuse_observation(VoxelMap& map, const Observation& observation,
-                                                      double max_range_m);
+                                                      const FusionOptions& fusion);
 
 }  // namespace canopeer::app

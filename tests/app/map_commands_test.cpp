@@ -112,6 +112,14 @@ TEST_F(MapFuse, OptionsPickFramesRangeAndFruit) {
   }
   expect_same_map(fused(dataset, {"--every", "3", "--max-range", "1.1"}), by_hand);
 
+  RecordedScene holed = scene;
+  for (int v = 0; v < 20; ++v) {
+    for (int u = 0; u < 20; ++u) holed.views[0].frame.depth.at(u, v) = 0.0F;
+  }
+  holed.write_tum(directory_ / "holed");
+  EXPECT_GT(fused(directory_ / "holed", {"--clear-no-return"}).observed_voxels(),
+            fused(directory_ / "holed").observed_voxels());
+
   const VoxelMap with_roi = fused(dataset, {"--roi", "color"});
   EXPECT_GT(with_roi.roi_voxels(), 20);
   EXPECT_LT(with_roi.roi_voxels(), with_roi.occupied_voxels() / 5);
