@@ -51,6 +51,9 @@ Summary summarize(const RunHeader& header, const Mission& mission, const RunMetr
   s.fruits_half_seen = metrics.fruits_half_seen;
   s.volume_error_half_seen = metrics.volume_error_half_seen;
   s.centre_error_half_seen_m = metrics.centre_error_half_seen_m;
+  s.fruits_seen_30pct = metrics.fruits_seen_30pct;
+  s.detected_seen_30pct = metrics.detected_seen_30pct;
+  s.f1_seen_30pct = metrics.f1_seen_30pct;
   if (metrics.pixels) {
     s.pixel_precision = metrics.pixels->precision();
     s.pixel_recall = metrics.pixels->recall();

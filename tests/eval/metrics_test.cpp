@@ -92,6 +92,24 @@ TEST(Metrics, OfWhatWasSeenWeighFruitsByTheirSurfaceAndClipShares) {
   EXPECT_NEAR(*m.volume_error_half_seen, 0.1, 1e-12);
 }
 
+TEST(Metrics, OfFruitsSeenToThirtyPercentSetTheOthersAside) {
+  const std::vector<FruitTruth> truth = four_fruits();
+  // Found: 0 and 1; 1 was hardly seen, 2 was seen and missed; one estimate is nowhere near a fruit.
+  const std::vector<FruitEstimate> fruits = {estimate_at({0, 0, 0.53}, 110.0),
+                                             estimate_at({1, 0, 0.5}, 150.0),
+                                             estimate_at({9, 0, 0.5}, 150.0)};
+  const std::vector<double> coverage = {0.6, 0.2, 0.3, 0.0, 1.0};
+  const RunMetrics m = compute_metrics(RunRecord{}, fruits, truth, coverage);
+  EXPECT_EQ(m.fruits_seen_30pct, 2);
+  EXPECT_EQ(m.detected_seen_30pct, 1);
+  EXPECT_NEAR(*m.f1_seen_30pct, 2.0 * 1.0 / (1.0 + 2.0 + 1.0), 1e-12);
+  const std::vector<double> nothing(truth.size(), 0.0);
+  const RunMetrics blind = compute_metrics(RunRecord{}, {}, truth, nothing);
+  EXPECT_EQ(blind.fruits_seen_30pct, 0);
+  EXPECT_FALSE(blind.f1_seen_30pct.has_value());
+  EXPECT_FALSE(compute_metrics(RunRecord{}, fruits, truth).fruits_seen_30pct.has_value());
+}
+
 TEST(Metrics, OfPixelsAreOverAllFramesThatHadLabels) {
   RunRecord record = run();
   EXPECT_FALSE(compute_metrics(record, {}, four_fruits()).pixels.has_value());

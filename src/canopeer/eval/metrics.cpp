@@ -107,6 +107,24 @@ void score_final_fruits(std::span<const FruitEstimate> fruits, std::span<const F
       }));
 }
 
+/// F1 of the fruits that a run has seen enough of to know them.
+void score_seen_fruits(std::span<const FruitEstimate> fruits, std::span<const FruitTruth> truth,
+                       std::span<const double> coverage, RunMetrics& metrics) {
+  if (coverage.empty()) return;
+  constexpr double kEnough = 0.3;
+  int seen = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) seen += truth[i].counted && coverage[i] >= kEnough;
+  const FruitMatching matching = match_optimal(centres_of(fruits), truth);
+  const auto found = static_cast<int>(
+      std::count_if(matching.pairs.begin(), matching.pairs.end(), [&](const FruitPair& pair) {
+        return coverage[static_cast<std::size_t>(pair.truth)] >= kEnough;
+      }));
+  metrics.fruits_seen_30pct = seen;
+  metrics.detected_seen_30pct = found;
+  const int all = found + seen + matching.false_positives;
+  if (all > 0) metrics.f1_seen_30pct = 2.0 * found / all;
+}
+
 /// Of the counted fruits together: a large fruit counts as much as its surface is.
 std::optional<double> mean_coverage(std::span<const FruitTruth> truth,
                                     std::span<const double> coverage) {
@@ -152,6 +170,7 @@ RunMetrics compute_metrics(const RunRecord& record, std::span<const FruitEstimat
   metrics.fruits_total = static_cast<int>(std::count_if(
       truth.begin(), truth.end(), [](const FruitTruth& fruit) { return fruit.counted; }));
   score_final_fruits(fruits, truth, coverage, metrics);
+  score_seen_fruits(fruits, truth, coverage, metrics);
   metrics.roi_surface_coverage = mean_coverage(truth, coverage);
   metrics.pixels = sum_of_pixels(record);
   metrics.found = found_over_time(record, truth);

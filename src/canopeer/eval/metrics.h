@@ -39,12 +39,18 @@ struct RunMetrics {
   std::optional<int> fruits_half_seen;
   std::optional<double> volume_error_half_seen;
   std::optional<double> centre_error_half_seen_m;
-  std::optional<PixelHits> pixels;     ///< of all frames together; null: none had labels
-  double joint_path_length_rad = 0.0;  ///< Σ|Δq| of all motions
-  double motion_time_s = 0.0;          ///< of all motions, transitions included
-  double planning_time_s = 0.0;        ///< standing still before views
-  int collisions = 0;                  ///< motions with one
-  int plant_contacts = 0;              ///< motions that touched a plant not yet seen
+  // Counted fruits at least 30 % of whose true surface was seen, those `detected` among them, and
+  // F1: 2 found / (found + such fruits + false_positives). A fruit found though less of it was seen
+  // is neither right nor wrong.
+  std::optional<int> fruits_seen_30pct;
+  std::optional<int> detected_seen_30pct;
+  std::optional<double> f1_seen_30pct;  ///< null when there is neither such a fruit nor a false one
+  std::optional<PixelHits> pixels;      ///< of all frames together; null: none had labels
+  double joint_path_length_rad = 0.0;   ///< Σ|Δq| of all motions
+  double motion_time_s = 0.0;           ///< of all motions, transitions included
+  double planning_time_s = 0.0;         ///< standing still before views
+  int collisions = 0;                   ///< motions with one
+  int plant_contacts = 0;               ///< motions that touched a plant not yet seen
   int views = 0;
   std::vector<FoundAtTime> found;  ///< one entry per view
 };

@@ -44,6 +44,9 @@ void for_each_field(AnySummary& summary, Visit&& visit) {
   visit("fruits_half_seen", summary.fruits_half_seen);
   visit("volume_error_half_seen", summary.volume_error_half_seen);
   visit("centre_error_half_seen_m", summary.centre_error_half_seen_m);
+  visit("fruits_seen_30pct", summary.fruits_seen_30pct);
+  visit("detected_seen_30pct", summary.detected_seen_30pct);
+  visit("f1_seen_30pct", summary.f1_seen_30pct);
   visit("pixel_precision", summary.pixel_precision);
   visit("pixel_recall", summary.pixel_recall);
   visit("pixel_iou", summary.pixel_iou);

@@ -45,6 +45,9 @@ struct Summary {
   std::optional<int> fruits_half_seen;  ///< `detected` ones half of whose true surface was seen
   std::optional<double> volume_error_half_seen;
   std::optional<double> centre_error_half_seen_m;
+  std::optional<int> fruits_seen_30pct;    ///< counted ones 30 % of whose true surface was seen
+  std::optional<int> detected_seen_30pct;  ///< of these
+  std::optional<double> f1_seen_30pct;
   std::optional<double> pixel_precision;  ///< of the detector, over all frames with labels
   std::optional<double> pixel_recall;
   std::optional<double> pixel_iou;

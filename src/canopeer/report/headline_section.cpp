@@ -84,6 +84,11 @@ std::string figures_section(const ReportData& data) {
        s.centre_error_mean_m ? fmt::format("{:.1f} mm", 1e3 * *s.centre_error_mean_m) : "–"},
       {"Volume error, mean", percent(s.volume_error_mean)},
       {"Fruit surface seen", percent(s.roi_surface_coverage)},
+      {"Of fruits seen to 30 %: found",
+       s.fruits_seen_30pct && s.detected_seen_30pct
+           ? fmt::format("{} of {}", *s.detected_seen_30pct, *s.fruits_seen_30pct)
+           : "–"},
+      {"F1 of these", s.f1_seen_30pct ? fmt::format("{:.3f}", *s.f1_seen_30pct) : "–"},
       {"ROI voxels at the end", count_text(s.roi_voxels)},
       {"Joint path length", fmt::format("{:.1f} rad", s.joint_path_length_rad)},
       {"Arm and trolley moving", duration_text(s.motion_time_s)},
