@@ -19,6 +19,7 @@
 #include "canopeer/fruit/fruit_map.h"
 #include "canopeer/record/record_file.h"
 #include "canopeer/render/rgbd_sensor.h"
+#include "false_spots.h"
 
 namespace canopeer {
 namespace {
@@ -56,6 +57,8 @@ Overrides condition(const std::string& name) {
       {"labels60", labels("0.4", "3")},
       {"labels55", labels("0.45", "3")},
       {"loose", with(noise, {{"detector.windows", kLooseWindows}})},
+      {"spots", noise},
+      {"spots70", labels("0.3", "3")},
       {"network", with(noise, {{"detector.kind", "network"}, {"detector.model", kModel}})}};
   const auto found = all.find(name);
   if (found != all.end()) return found->second;
@@ -113,6 +116,8 @@ class Replay {
     const auto detector = must(make_detector(file_.mission.detector));
     FruitMap map(file_.mission.fruit);
     FruitMap seen;  // by a perfect camera and detector: what there was to see
+    const FalseSpots spots(world_.scene, options.seed);
+    const bool spotted = name_.starts_with("spots");
     PixelCounts pixels;
     std::vector<double> update_ms;
     for (const ViewEvent& view : record_.views) {
@@ -120,7 +125,8 @@ class Replay {
       RgbdFrame frame = sensor.capture(view.T_world_camera, number);
       frame.time_s = view.t_s;
       const RgbdFrame truth = true_sensor.capture(view.T_world_camera, number);
-      const Detection detection = must(detector->detect(frame));
+      Detection detection = must(detector->detect(frame));
+      if (spotted) spots.apply(truth, number, detection.fruit);
       pixels.add(detection.fruit, counted(truth), nullptr);
       seen.add(truth, counted(truth));
       const double begin = cpu_ms();
@@ -153,7 +159,8 @@ class Replay {
       out << name_ << ',' << run_ << ',' << view << ',' << last << ',' << fruits[i].id << ','
           << verdict[i] << ',' << fruits[i].confidence << ',' << e.area_cm2 << ',' << e.seen_share
           << ',' << e.rms_m << ',' << e.fruit_share << ',' << e.views << ',' << e.size_sds << ','
-          << e.normal_spread << '\n';
+          << e.normal_spread << ',' << e.looks << ',' << e.foreign_share << ',' << e.free_share
+          << '\n';
     }
   }
 
@@ -218,7 +225,7 @@ int main(int argc, char** argv) {
   std::filesystem::create_directories(argv[2]);
   std::ofstream out(std::filesystem::path(argv[2]) / "candidates.csv");
   out << "condition,run,view,last,id,real,confidence,area_cm2,seen_share,rms_m,fruit_share,views,"
-         "size_sds,normal_spread\n";
+         "size_sds,normal_spread,looks,foreign_share,free_share\n";
   for (int i = 4; i < argc; ++i) {
     const canopeer::RunRecord record = canopeer::must(canopeer::read_record(argv[i]));
     std::istringstream names(argv[3]);

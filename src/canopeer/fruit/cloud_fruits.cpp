@@ -173,8 +173,10 @@ Expected<CloudFruits> fit_cloud(const PointCloud& cloud, const CloudFitOptions& 
       e.views = 1;
       e.id = static_cast<int>(result.fruits.size());
       e.color = mean_color(thinned.colors, own_index);
-      e.confidence = limits.confidence(evidence_of(e, limits, 1e4 * options.cell_m * options.cell_m,
-                                                   1.0, normal_spread(surface, separated.points)));
+      SurfaceEvidence seen;
+      seen.normal_spread = normal_spread(surface, separated.points);
+      e.confidence =
+          limits.confidence(evidence_of(e, limits, 1e4 * options.cell_m * options.cell_m, seen));
       std::vector<Vec3>& unseen = result.missing.emplace_back();
       for (const SurfacePoint& s : missing.points) unseen.push_back(s.point);
       for (const int i : own_index) result.fruit[i] = e.id;

@@ -13,6 +13,9 @@ struct FruitEvidence {
   int views = 0;               ///< frames it was seen in
   double size_sds = 0.0;       ///< how far its size is from the prior's, standard deviations
   double normal_spread = 0.0;  ///< variance of the normals: 0 for a plane
+  double looks = 0.0;          ///< pixels that judged a place on it, each by how near it was: mean
+  double foreign_share = 0.0;  ///< of the surface that fits the shape what is taken for no fruit
+  double free_share = 0.0;     ///< of the shape's surface what lies where nothing is
 };
 
 /// Logistic regression on the evidence. The weights were fitted on simulated runs; how, and how

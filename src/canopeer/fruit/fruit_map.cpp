@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <unordered_map>
 
@@ -22,8 +23,7 @@ namespace {
 struct KnownFruit {
   FruitEstimate estimate;
   FruitEvidence evidence;
-  double fruit_share = 0.0;
-  double normal_spread = 0.0;
+  SurfaceEvidence seen;
   SuperellipsoidFit fit;
   std::vector<std::uint64_t> cells;   ///< its surface, ascending
   std::vector<int> blocks;            ///< its cells lie in, ascending
@@ -98,6 +98,8 @@ struct FruitMap::State {
   [[nodiscard]] std::vector<Patch> patches_around(const std::vector<int>& changed) const;
   void drop_odd_pieces(Patch& patch) const;
   void solve(const Patch& patch, std::vector<KnownFruit>& found) const;
+  [[nodiscard]] double foreign_share(const ShapeEstimate& shape, const KnownFruit& fruit) const;
+  [[nodiscard]] double free_share(const Superellipsoid& body) const;
   void measure(KnownFruit& fruit, const KnownFruit* before, const std::vector<int>& changed,
                bool anew);
   std::vector<Patch> take_patches(const std::vector<int>& changed, bool all,
@@ -184,6 +186,7 @@ void FruitMap::State::solve(const Patch& patch, std::vector<KnownFruit>& found) 
     Eigen::Array3d color = Eigen::Array3d::Zero();
     std::array<int, kPixelLabels> votes{};
     double fruit_share = 0.0;
+    double looks = 0.0;
     for (const int i : separated.points) {
       const SurfaceVertex& v = *patch.vertex[static_cast<std::size_t>(i)];
       fruit.cells.push_back(voxel_key(v.cell));
@@ -191,6 +194,7 @@ void FruitMap::State::solve(const Patch& patch, std::vector<KnownFruit>& found) 
       color += Eigen::Array3d(v.color.r, v.color.g, v.color.b);
       ++votes[static_cast<std::size_t>(v.kind)];
       fruit_share += static_cast<double>(v.fruit_share);
+      looks += static_cast<double>(v.looks);
     }
     sort_unique(fruit.cells);
     sort_unique(fruit.blocks);
@@ -200,13 +204,46 @@ void FruitMap::State::solve(const Patch& patch, std::vector<KnownFruit>& found) 
     e.ripeness =
         static_cast<PixelLabel>(std::max_element(votes.begin() + 1, votes.end()) - votes.begin());
     e.centre = separated.shape.centre;
-    fruit.fruit_share = fruit_share / e.points;
-    fruit.normal_spread = normal_spread(patch.surface, separated.points);
+    fruit.seen.fruit_share = fruit_share / e.points;
+    fruit.seen.looks = looks / e.points;
+    fruit.seen.normal_spread = normal_spread(patch.surface, separated.points);
+    fruit.seen.foreign_share = foreign_share(separated.shape, fruit);
     fruit.surface.reserve(separated.points.size());
     for (const int i : separated.points) {
       fruit.surface.push_back(patch.surface[static_cast<std::size_t>(i)]);
     }
   }
+}
+
+/// Of the surface around the fruit that lies on its shape and faces the same way, how much pixels
+/// took for something else: the rest of the leaf when the fruit is a red spot on one.
+double FruitMap::State::foreign_share(const ShapeEstimate& shape, const KnownFruit& fruit) const {
+  constexpr double kOnShape_m = 0.008;
+  constexpr double kMinCos = 0.7;
+  int foreign = 0;
+  for (const int block : fruit.blocks) {
+    for (const SurfaceVertex& v : surface.vertices(block)) {
+      if (counts(v)) continue;
+      const SurfacePoint& s = v.surface;
+      const bool on_shape = std::abs(shape.radial_distance(s.point)) < kOnShape_m;
+      foreign += on_shape && shape.normal_at(s.point).dot(s.normal) > kMinCos;
+    }
+  }
+  return static_cast<double>(foreign) / (foreign + fruit.estimate.points);
+}
+
+/// Of the body's surface the share that lies well in the open: cameras looked through there.
+double FruitMap::State::free_share(const Superellipsoid& body) const {
+  constexpr int kSamples = 120;
+  constexpr double kInside_m = 0.004;
+  const auto open = static_cast<float>(0.5 * options.tsdf.truncation_m);
+  int free = 0;
+  for (const SurfacePoint& s : body.surface_samples(kSamples)) {
+    const Vec3 inside = s.point - kInside_m * s.normal;
+    const auto distance = surface.tsdf().distance_at(voxel_at(inside, options.tsdf.voxel_m));
+    free += distance && *distance > open;
+  }
+  return static_cast<double>(free) / kSamples;
 }
 
 /// Fits the fruit's shape, unless it is the one it was before; from there on when it was there.
@@ -218,12 +255,14 @@ void FruitMap::State::measure(KnownFruit& fruit, const KnownFruit* before,
   if (unchanged) {
     fruit.fit = before->fit;
     e.seen_share = before->estimate.seen_share;
+    fruit.seen.free_share = before->seen.free_share;
   } else {
     std::optional<Superellipsoid> from;
     if (before != nullptr && !anew) from = before->fit.body;
     fruit.fit = fit_superellipsoid(fruit.surface, fit_options, from);
     ++fits;
     e.seen_share = missing_surface(fruit.fit.body, fruit.surface).seen_share();
+    fruit.seen.free_share = free_share(fruit.fit.body);
   }
   fruit.surface = {};
   set_shape(fruit.fit, e);
@@ -263,8 +302,7 @@ void FruitMap::State::hand_out() {
   candidates.clear();
   for (KnownFruit& fruit : known) {
     const double cell_cm = 100.0 * options.tsdf.voxel_m;
-    fruit.evidence = evidence_of(fruit.estimate, options, cell_cm * cell_cm, fruit.fruit_share,
-                                 fruit.normal_spread);
+    fruit.evidence = evidence_of(fruit.estimate, options, cell_cm * cell_cm, fruit.seen);
     fruit.estimate.confidence = options.confidence(fruit.evidence);
     candidates.push_back(fruit.estimate);
     if (fruit.estimate.confidence >= options.min_confidence) fruits.push_back(fruit.estimate);

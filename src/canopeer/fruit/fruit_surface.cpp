@@ -109,6 +109,7 @@ void set_looks(const std::array<const TsdfLooks*, 8>& corners, SurfaceVertex& ve
   }
   const float fruit = votes[1] + votes[2] + votes[3];
   vertex.fruit_share = fruit / std::max(1e-6F, fruit + votes[0]);
+  vertex.looks = (fruit + votes[0]) / static_cast<float>(corners.size());
   const auto most = std::max_element(votes.begin() + 1, votes.end());
   vertex.kind = static_cast<PixelLabel>(most - votes.begin());
   const auto channel = [&](int k) {
@@ -196,24 +197,14 @@ SurfaceMesh FruitSurface::mesh() const {
     }
   }
   mesh.fruit.assign(mesh.vertices.size(), -1);
-  const auto distance_at = [&](const VoxelIndex& voxel) -> std::optional<float> {
-    const VoxelIndex block(voxel.x() >> 3, voxel.y() >> 3, voxel.z() >> 3);
-    const int number = tsdf_.block_at(block);
-    if (number < 0) return std::nullopt;
-    const VoxelIndex in = voxel - block * kSide;
-    const FruitTsdf::Block& held = *tsdf_.blocks()[static_cast<std::size_t>(number)];
-    const std::size_t at = FruitTsdf::offset(in.x(), in.y(), in.z());
-    if (held.weight[at] < FruitTsdf::kSeenWeight) return std::nullopt;
-    return held.distance_m[at];
-  };
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const VoxelIndex cell = mesh.vertices[i].cell;
     for (int axis = 0; axis < 3; ++axis) {
       const VoxelIndex up = VoxelIndex::Unit(axis);
       const VoxelIndex b = VoxelIndex::Unit((axis + 1) % 3);
       const VoxelIndex c = VoxelIndex::Unit((axis + 2) % 3);
-      const auto low = distance_at(cell);
-      const auto high = distance_at(cell + up);
+      const auto low = tsdf_.distance_at(cell);
+      const auto high = tsdf_.distance_at(cell + up);
       if (!low || !high || (*low < 0.0F) == (*high < 0.0F)) continue;
       std::array<std::uint32_t, 4> quad{};
       bool whole = true;

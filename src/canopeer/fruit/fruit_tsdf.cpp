@@ -119,6 +119,16 @@ int FruitTsdf::block_at(const VoxelIndex& block) const {
   return found == number_of_.end() ? -1 : found->second;
 }
 
+std::optional<float> FruitTsdf::distance_at(const VoxelIndex& voxel) const {
+  const VoxelIndex block(voxel.x() >> 3, voxel.y() >> 3, voxel.z() >> 3);
+  const int number = block_at(block);
+  if (number < 0) return std::nullopt;
+  const Block& held = *blocks_[static_cast<std::size_t>(number)];
+  const std::size_t at = offset(voxel.x() & 7, voxel.y() & 7, voxel.z() & 7);
+  if (held.weight[at] < kSeenWeight) return std::nullopt;
+  return held.distance_m[at];
+}
+
 void FruitTsdf::add(const RgbdFrame& frame, const Image<std::uint8_t>& classes) {
   const CameraIntrinsics& k = frame.intrinsics;
   CANOPEER_CHECK(classes.width() == k.width && classes.height() == k.height, "of this frame");

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -71,6 +72,8 @@ class FruitTsdf {
 
   /// −1: there is none.
   [[nodiscard]] int block_at(const VoxelIndex& block) const;
+  /// Truncated signed distance at a voxel; none where nobody has looked.
+  [[nodiscard]] std::optional<float> distance_at(const VoxelIndex& voxel) const;
   [[nodiscard]] const std::vector<std::unique_ptr<Block>>& blocks() const { return blocks_; }
   /// Blocks that the last frame's fruit pixels lie in or beside.
   [[nodiscard]] const std::vector<int>& seen_in_last_frame() const { return seen_; }

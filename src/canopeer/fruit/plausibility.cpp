@@ -45,18 +45,21 @@ double normal_spread(std::span<const SurfacePoint> surface, const std::vector<in
 }
 
 FruitEvidence evidence_of(const FruitEstimate& fruit, const FruitMapOptions& options,
-                          double cell_cm2, double fruit_share, double normal_spread) {
+                          double cell_cm2, const SurfaceEvidence& seen) {
   const ShapePrior& prior = options.prior;
   const double across = 0.5 * (fruit.semi_axes_m.x() + fruit.semi_axes_m.y());
   FruitEvidence e;
   e.area_cm2 = cell_cm2 * fruit.points;
   e.seen_share = fruit.seen_share;
   e.rms_m = fruit.rms_m;
-  e.fruit_share = fruit_share;
+  e.fruit_share = seen.fruit_share;
   e.views = fruit.views;
   e.size_sds = std::hypot((across - prior.radius_m) / prior.radius_sd_m,
                           (fruit.semi_axes_m.z() - prior.half_length_m) / prior.half_length_sd_m);
-  e.normal_spread = normal_spread;
+  e.normal_spread = seen.normal_spread;
+  e.looks = seen.looks;
+  e.foreign_share = seen.foreign_share;
+  e.free_share = seen.free_share;
   return e;
 }
 

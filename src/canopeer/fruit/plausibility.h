@@ -13,9 +13,19 @@ namespace canopeer {
 [[nodiscard]] double normal_spread(std::span<const SurfacePoint> surface,
                                    const std::vector<int>& points);
 
+/// What the surface says of a fruit beyond its shape (see FruitEvidence). By default nobody has
+/// said anything against it.
+struct SurfaceEvidence {
+  double fruit_share = 1.0;
+  double looks = 10.0;
+  double normal_spread = 0.0;
+  double foreign_share = 0.0;
+  double free_share = 0.0;
+};
+
 /// What a fitted fruit says for being one. `cell_cm2`: area that one of its points stands for.
 [[nodiscard]] FruitEvidence evidence_of(const FruitEstimate& fruit, const FruitMapOptions& options,
-                                        double cell_cm2, double fruit_share, double normal_spread);
+                                        double cell_cm2, const SurfaceEvidence& seen);
 
 /// The shape into the estimate: pose, axes, volume, errors.
 void set_shape(const SuperellipsoidFit& fit, FruitEstimate& estimate);
