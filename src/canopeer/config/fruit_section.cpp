@@ -13,6 +13,7 @@ void read_fruit(YamlMap& file, FruitMapOptions& o) {
   o.min_confidence = fruit.number("min_confidence", o.min_confidence, {0.0, 1.0});
   o.cluster_tolerance_m = fruit.number("cluster_tolerance_m", o.cluster_tolerance_m, {0.001, 0.1});
   o.fit_points = fruit.integer("fit_points", o.fit_points, 20, 100000);
+  o.refit_points = fruit.integer("refit_points", o.refit_points, 20, 100000);
   o.update_blocks = fruit.integer("update_blocks", o.update_blocks, 1, FruitMapOptions::kNoBound);
   o.update_points = fruit.integer("update_points", o.update_points, 1, FruitMapOptions::kNoBound);
   o.prior.radius_m = fruit.number("radius_m", o.prior.radius_m, {0.02, 0.15});

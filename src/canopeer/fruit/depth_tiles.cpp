@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "canopeer/fruit/four.h"
+
 namespace canopeer {
 
 DepthTiles::DepthTiles(const DepthImage& depth)
@@ -15,13 +17,11 @@ DepthTiles::DepthTiles(const DepthImage& depth)
       const int begin = tile * kSide;
       const float* const pixels = depth.pixels().data() + std::ptrdiff_t{v} * depth.width() + begin;
       const int count = std::min(kSide, depth.width() - begin);
-      // Four maxima side by side: one alone would wait for itself.
-      float far[4] = {tiles[tile], 0.0F, 0.0F, 0.0F};
+      Four far = {tiles[tile], 0.0F, 0.0F, 0.0F};
       int i = 0;
       for (; i + 4 <= count; i += 4) {
-        for (int lane = 0; lane < 4; ++lane) {
-          far[lane] = pixels[i + lane] > far[lane] ? pixels[i + lane] : far[lane];
-        }
+        const Four here = load_four(pixels + i);
+        far = here > far ? here : far;
       }
       for (; i < count; ++i) far[0] = std::max(far[0], pixels[i]);
       tiles[tile] = std::max(std::max(far[0], far[1]), std::max(far[2], far[3]));

@@ -2,32 +2,39 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 
 #include "canopeer/fruit/voxel_key.h"
 
 namespace canopeer {
 namespace {
 
-/// The first point of each cell of a grid, −1: none. Cells come in blocks of 8³ that are found by
-/// their keys once; most lookups stay within one, as they are what all the time goes into.
+/// A cell of a grid: its first point, −1: none; and whether its points are known to be of one
+/// cluster.
+struct Cell {
+  int first = -1;
+  bool single = true;
+};
+
+/// Cells in blocks of 8³ that are found by their keys once; most lookups stay within one.
 class CellGrid {
  public:
   static constexpr int kSide = 8;
-  using Block = std::array<int, kSide * kSide * kSide>;
+  using Block = std::array<Cell, kSide * kSide * kSide>;
 
-  /// `points`: an upper limit of the blocks.
-  explicit CellGrid(std::size_t points)
-      : mask_(std::bit_ceil(2 * points + 1) - 1), slots_(mask_ + 1, Slot{0, -1}) {}
-
-  int& at(const VoxelIndex& cell) {
-    const std::size_t slot = slot_of(voxel_key(block_of(cell)));
+  Cell& at(const VoxelIndex& cell) {
+    const std::uint64_t key = voxel_key(block_of(cell));
+    std::size_t slot = slot_of(key);
     if (slots_[slot].block < 0) {
-      slots_[slot] = {voxel_key(block_of(cell)), static_cast<int>(blocks_.size())};
-      blocks_.emplace_back().fill(-1);
+      if (2 * blocks_.size() >= slots_.size()) {
+        grow();
+        slot = slot_of(key);
+      }
+      slots_[slot] = {key, static_cast<int>(blocks_.size())};
+      blocks_.emplace_back();
     }
     return blocks_[static_cast<std::size_t>(slots_[slot].block)][offset(cell)];
   }
@@ -58,22 +65,29 @@ class CellGrid {
   };
 
   [[nodiscard]] std::size_t slot_of(std::uint64_t key) const {
-    std::size_t slot = (key * 0x9E3779B97F4A7C15U >> 20U) & mask_;
-    while (slots_[slot].block >= 0 && slots_[slot].key != key) slot = (slot + 1) & mask_;
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t slot = (key * 0x9E3779B97F4A7C15U >> 20U) & mask;
+    while (slots_[slot].block >= 0 && slots_[slot].key != key) slot = (slot + 1) & mask;
     return slot;
   }
 
-  std::size_t mask_;
-  std::vector<Slot> slots_;
+  void grow() {
+    const std::vector<Slot> old = std::exchange(slots_, std::vector<Slot>(2 * slots_.size()));
+    for (const Slot& slot : old) {
+      if (slot.block >= 0) slots_[slot_of(slot.key)] = slot;
+    }
+  }
+
+  std::vector<Slot> slots_ = std::vector<Slot>(64);  // a power of two, half of them free at least
   std::vector<Block> blocks_;
 };
 
-/// Half of the cells in reach: the other half looks this way.
+/// Half of the cells around: the other half looks this way.
 std::vector<VoxelIndex> half_of_the_neighbours() {
   std::vector<VoxelIndex> offsets;
-  for (int x = -2; x <= 2; ++x) {
-    for (int y = -2; y <= 2; ++y) {
-      for (int z = -2; z <= 2; ++z) {
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = -1; z <= 1; ++z) {
         if (x > 0 || (x == 0 && (y > 0 || (y == 0 && z > 0)))) offsets.emplace_back(x, y, z);
       }
     }
@@ -81,70 +95,111 @@ std::vector<VoxelIndex> half_of_the_neighbours() {
   return offsets;
 }
 
+/// Clusters as sets that are united; a set is known by its lowest point.
+class Clusters {
+ public:
+  Clusters(std::span<const SurfacePoint> points, double tolerance_m)
+      : points_(points),
+        tolerance2_(tolerance_m * tolerance_m),
+        next_in_cell_(points.size(), -1),
+        parent_(points.size()) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+    // Points within the tolerance are in one cell or in two that touch.
+    const double side = tolerance_m * (1.0 + 1e-9);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const VoxelIndex index = voxel_at(points[i].point, side);
+      Cell& cell = grid_.at(index);
+      const int number = static_cast<int>(i);
+      if (cell.first < 0) {
+        cells_.push_back(index);
+      } else {
+        next_in_cell_[i] = cell.first;
+      }
+      cell.first = number;
+    }
+    for (const VoxelIndex& index : cells_) unite_within(grid_.at(index));
+    unite_neighbours();
+  }
+
+  int root(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+
+ private:
+  [[nodiscard]] bool touch(int a, int b) const {
+    return (points_[a].point - points_[b].point).squaredNorm() <= tolerance2_;
+  }
+
+  void unite(int a, int b) {
+    a = root(a);
+    b = root(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+  void unite_within(Cell& cell) {
+    for (int i = cell.first; i >= 0; i = next_in_cell_[i]) {
+      for (int j = next_in_cell_[i]; j >= 0; j = next_in_cell_[j]) {
+        if (root(i) != root(j) && touch(i, j)) unite(i, j);
+      }
+    }
+    for (int i = cell.first; i >= 0; i = next_in_cell_[i]) {
+      cell.single = cell.single && root(i) == root(cell.first);
+    }
+  }
+
+  /// Between two cells of one cluster each, the first two points that touch are enough.
+  void unite(const Cell& a, const Cell& b) {
+    const bool single = a.single && b.single;
+    if (single && root(a.first) == root(b.first)) return;
+    for (int i = a.first; i >= 0; i = next_in_cell_[i]) {
+      for (int j = b.first; j >= 0; j = next_in_cell_[j]) {
+        if (!touch(i, j)) continue;
+        unite(i, j);
+        if (single) return;
+      }
+    }
+  }
+
+  void unite_neighbours() {
+    static const std::vector<VoxelIndex> neighbours = half_of_the_neighbours();
+    VoxelIndex last_block = VoxelIndex::Constant(1 << 20);
+    std::array<const CellGrid::Block*, 27> around{};
+    for (const VoxelIndex& index : cells_) {
+      const VoxelIndex block = CellGrid::block_of(index);
+      if (block != last_block) around = grid_.around(index);
+      last_block = block;
+      const Cell& cell = (*around[13])[CellGrid::offset(index)];
+      const VoxelIndex in_block(index.x() & 7, index.y() & 7, index.z() & 7);
+      for (const VoxelIndex& offset : neighbours) {
+        // One cell below or above: 8 is added so that shifting rounds down.
+        const VoxelIndex near = in_block + offset + VoxelIndex::Constant(8);
+        const CellGrid::Block* held =
+            around[(near.x() >> 3) + 3 * (near.y() >> 3) + 9 * (near.z() >> 3)];
+        if (held == nullptr) continue;
+        const Cell& other = (*held)[CellGrid::offset(near)];
+        if (other.first >= 0) unite(cell, other);
+      }
+    }
+  }
+
+  std::span<const SurfacePoint> points_;
+  double tolerance2_;
+  CellGrid grid_;
+  std::vector<VoxelIndex> cells_;
+  std::vector<int> next_in_cell_;
+  std::vector<int> parent_;
+};
+
 }  // namespace
 
 std::vector<int> euclidean_clusters(std::span<const SurfacePoint> points, double tolerance_m) {
-  // In a cell of this side any two points are within the tolerance, so a cell is one cluster.
-  const double side = tolerance_m / std::sqrt(3.0) * (1.0 - 1e-9);
-  CellGrid grid(points.size());
-  std::vector<int> next_in_cell(points.size(), -1);
-  std::vector<int> parent(points.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  const auto unite = [&](int a, int b) { parent[std::max(a, b)] = std::min(a, b); };
-  std::vector<int> firsts;
-  std::vector<VoxelIndex> cells;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const VoxelIndex cell = voxel_at(points[i].point, side);
-    int& first = grid.at(cell);
-    const int number = static_cast<int>(i);
-    if (first < 0) {
-      first = number;
-      firsts.push_back(number);
-      cells.push_back(cell);
-    } else {
-      next_in_cell[i] = next_in_cell[first];
-      next_in_cell[first] = number;
-      parent[i] = first;
-    }
-  }
-  static const std::vector<VoxelIndex> neighbours = half_of_the_neighbours();
-  const double tolerance2 = tolerance_m * tolerance_m;
-  const auto touch = [&](int a, int b) {
-    for (int i = a; i >= 0; i = next_in_cell[i]) {
-      for (int j = b; j >= 0; j = next_in_cell[j]) {
-        if ((points[i].point - points[j].point).squaredNorm() <= tolerance2) return true;
-      }
-    }
-    return false;
-  };
-  VoxelIndex last_block = VoxelIndex::Constant(1 << 20);
-  std::array<const CellGrid::Block*, 27> around{};
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    const VoxelIndex block = CellGrid::block_of(cells[c]);
-    if (block != last_block) around = grid.around(cells[c]);
-    last_block = block;
-    const VoxelIndex in_block(cells[c].x() & 7, cells[c].y() & 7, cells[c].z() & 7);
-    for (const VoxelIndex& offset : neighbours) {
-      // Up to two cells below or above: 8 is added so that shifting rounds down.
-      const VoxelIndex near = in_block + offset + VoxelIndex::Constant(8);
-      const CellGrid::Block* held =
-          around[(near.x() >> 3) + 3 * (near.y() >> 3) + 9 * (near.z() >> 3)];
-      const int other = held == nullptr ? -1 : (*held)[CellGrid::offset(near)];
-      if (other < 0) continue;
-      const int a = root(firsts[c]);
-      const int b = root(other);
-      if (a != b && touch(firsts[c], other)) unite(a, b);
-    }
-  }
+  Clusters sets(points, tolerance_m);
   std::vector<int> number_of_root(points.size(), -1);
   std::vector<int> cluster(points.size());
   int clusters = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    int& number = number_of_root[root(static_cast<int>(i))];
+    int& number = number_of_root[sets.root(static_cast<int>(i))];
     if (number < 0) number = clusters++;
     cluster[i] = number;
   }

@@ -73,10 +73,13 @@ struct FruitMap::State {
   explicit State(const FruitMapOptions& o) : options(o), surface(o.tsdf), tracker(o.id_distance_m) {
     fit_options.prior = o.prior;
     fit_options.max_points = o.fit_points;
+    again_options = fit_options;
+    again_options.max_points = std::min(o.fit_points, o.refit_points);
   }
 
   FruitMapOptions options;
   FitOptions fit_options;
+  FitOptions again_options;  // of shapes that are known already
   FruitSurface surface;
   FruitTracker tracker;
   std::vector<KnownFruit> known;          // by ascending id
@@ -99,7 +102,7 @@ struct FruitMap::State {
   void drop_odd_pieces(Patch& patch) const;
   void solve(const Patch& patch, std::vector<KnownFruit>& found) const;
   [[nodiscard]] double foreign_share(const ShapeEstimate& shape, const KnownFruit& fruit) const;
-  [[nodiscard]] double free_share(const Superellipsoid& body) const;
+  [[nodiscard]] double free_share(const std::vector<SurfacePoint>& shape) const;
   void measure(KnownFruit& fruit, const KnownFruit* before, const std::vector<int>& changed,
                bool anew);
   std::vector<Patch> take_patches(const std::vector<int>& changed, bool all,
@@ -232,18 +235,17 @@ double FruitMap::State::foreign_share(const ShapeEstimate& shape, const KnownFru
   return static_cast<double>(foreign) / (foreign + fruit.estimate.points);
 }
 
-/// Of the body's surface the share that lies well in the open: cameras looked through there.
-double FruitMap::State::free_share(const Superellipsoid& body) const {
-  constexpr int kSamples = 120;
+/// Of a shape's surface the share that lies well in the open: cameras looked through there.
+double FruitMap::State::free_share(const std::vector<SurfacePoint>& shape) const {
   constexpr double kInside_m = 0.004;
   const auto open = static_cast<float>(0.5 * options.tsdf.truncation_m);
   int free = 0;
-  for (const SurfacePoint& s : body.surface_samples(kSamples)) {
+  for (const SurfacePoint& s : shape) {
     const Vec3 inside = s.point - kInside_m * s.normal;
     const auto distance = surface.tsdf().distance_at(voxel_at(inside, options.tsdf.voxel_m));
     free += distance && *distance > open;
   }
-  return static_cast<double>(free) / kSamples;
+  return static_cast<double>(free) / static_cast<double>(shape.size());
 }
 
 /// Fits the fruit's shape, unless it is the one it was before; from there on when it was there.
@@ -259,10 +261,12 @@ void FruitMap::State::measure(KnownFruit& fruit, const KnownFruit* before,
   } else {
     std::optional<Superellipsoid> from;
     if (before != nullptr && !anew) from = before->fit.body;
-    fruit.fit = fit_superellipsoid(fruit.surface, fit_options, from);
+    fruit.fit = fit_superellipsoid(fruit.surface, from ? again_options : fit_options, from);
     ++fits;
-    e.seen_share = missing_surface(fruit.fit.body, fruit.surface).seen_share();
-    fruit.seen.free_share = free_share(fruit.fit.body);
+    constexpr int kSamples = 128;
+    const std::vector<SurfacePoint> samples = fruit.fit.body.surface_samples(kSamples);
+    e.seen_share = missing_surface(samples, fruit.surface).seen_share();
+    fruit.seen.free_share = free_share(samples);
   }
   fruit.surface = {};
   set_shape(fruit.fit, e);

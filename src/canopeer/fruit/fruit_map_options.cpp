@@ -25,7 +25,9 @@ Expected<void> FruitMapOptions::validate() const {
   if (!(max_rms_m > 0.0)) return fail("max_rms_m must be positive");
   if (!(min_centre_distance_m > 0.0)) return fail("min_centre_distance_m must be positive");
   if (!(id_distance_m > 0.0)) return fail("id_distance_m must be positive");
-  if (fit_points < 20) return fail("fit_points must be at least 20");
+  if (fit_points < 20 || refit_points < 20) {
+    return fail("fit_points and refit_points must be at least 20");
+  }
   if (update_points < 1 || update_blocks < 1) {
     return fail("update_points and update_blocks must be at least 1");
   }

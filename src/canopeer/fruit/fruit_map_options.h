@@ -33,13 +33,14 @@ struct FruitMapOptions {
       0.05;  ///< a fruit that shares no surface with what it was keeps its id so far
 
   // Shape and report.
-  int fit_points = 160;  ///< of a fruit's surface, evenly, for its shape
+  int fit_points = 160;   ///< of a fruit's surface, evenly, for its shape
+  int refit_points = 96;  ///< the same for shapes that are known already, until the run ends
   ConfidenceModel confidence;
   /// In one update so much known surface is drawn anew (blocks) and looked at again (points; one
   /// patch at least), so that a frame on which much has changed holds nobody up; what is left waits
-  /// for the next. New surface and new fruits never wait. By default there is no bound.
+  /// for the next. New surface and new fruits never wait. 3 000 points are about ten fruits.
   int update_blocks = kNoBound;
-  int update_points = kNoBound;
+  int update_points = 3000;
   static constexpr int kNoBound = 100000000;
   double min_confidence = 0.5;  ///< less likely fruits are not reported
   std::vector<PlantRow> rows;   ///< for places in rows; none: no places

@@ -13,7 +13,7 @@ namespace {
 constexpr int kRounds = 3;
 constexpr double kGate_m = 0.010;      // a fruit's own points are this near to its ellipsoid
 constexpr double kMinNormalCos = 0.3;  // and face about the same way
-constexpr std::size_t kFitPoints = 160;
+constexpr std::size_t kFitPoints = 96;
 
 /// Shape of the chosen points; many points are thinned evenly, which changes little and saves time.
 ShapeEstimate shape_of(std::span<const SurfacePoint> surface, const std::vector<int>& points,

@@ -14,9 +14,6 @@ namespace {
 constexpr int kSide = FruitTsdf::kSide;
 constexpr int kCorners = kSide + 1;
 
-/// Corners (x fastest) where the four edges of a cell along x, y, z begin.
-constexpr int kEdgesFrom[3][4] = {{0, 2, 4, 6}, {0, 1, 4, 5}, {0, 1, 2, 3}};
-
 /// A cell's corners, x fastest.
 struct Corners {
   std::array<float, 8> distance_m{};
@@ -87,69 +84,87 @@ class CellCorners {
   unsigned inside_[kCorners][kCorners];
 };
 
-/// Gradient of the distance in the middle of a cell: the mean difference along each axis.
-Vec3 gradient_of(const std::array<float, 8>& distance_m) {
-  Vec3 g = Vec3::Zero();
-  for (int k = 0; k < 8; ++k) {
-    for (int axis = 0; axis < 3; ++axis) {
-      g[axis] += ((k >> axis) & 1) != 0 ? distance_m[k] : -distance_m[k];
-    }
-  }
-  return g;
+/// Gradient of the distance in the middle of a cell, times four: the difference along each axis.
+Vec3 gradient_of(const Four& low, const Four& high) {
+  const Four up = high - low;
+  const Four both = high + low;
+  return {both[1] - both[0] + both[3] - both[2], both[2] - both[0] + both[3] - both[1],
+          up[0] + up[1] + up[2] + up[3]};
 }
 
+static_assert(sizeof(TsdfLooks) == 2 * sizeof(Four) && kPixelLabels == 4, "two loads of four");
+
 void set_looks(const std::array<const TsdfLooks*, 8>& corners, SurfaceVertex& vertex) {
-  std::array<float, kPixelLabels> votes{};
-  std::array<float, 3> color{};
+  Four votes = all(0.0F);
+  Four color = all(0.0F);
   float color_weight = 1e-6F;
   for (const TsdfLooks* looks : corners) {
-    for (int k = 0; k < kPixelLabels; ++k) votes[k] += looks->votes[k];
-    for (int k = 0; k < 3; ++k) color[k] += looks->color_weight * looks->color[k];
-    color_weight += looks->color_weight;
+    votes += load_four(looks->votes.data());
+    const float weight = looks->color_weight;
+    color += weight * load_four(looks->color.data());  // the fourth is nothing
+    color_weight += weight;
   }
   const float fruit = votes[1] + votes[2] + votes[3];
   vertex.fruit_share = fruit / std::max(1e-6F, fruit + votes[0]);
   vertex.looks = (fruit + votes[0]) / static_cast<float>(corners.size());
-  const auto most = std::max_element(votes.begin() + 1, votes.end());
-  vertex.kind = static_cast<PixelLabel>(most - votes.begin());
+  int most = 1;
+  for (int k = 2; k < kPixelLabels; ++k) most = votes[k] > votes[most] ? k : most;
+  vertex.kind = static_cast<PixelLabel>(most);
+  const Four mean = color / color_weight + 0.5F;
   const auto channel = [&](int k) {
-    return static_cast<std::uint8_t>(std::clamp(color[k] / color_weight + 0.5F, 0.0F, 255.0F));
+    return static_cast<std::uint8_t>(std::clamp(mean[k], 0.0F, 255.0F));
   };
   vertex.color = {channel(0), channel(1), channel(2)};
 }
 
+/// Sum of where the surface crosses the cell's edges, in voxels from the lowest corner, and how
+/// many it crosses: the four edges along each axis at once.
+struct Crossings {
+  float sum[3] = {};
+  int count = 0;
+  /// `from`, `to`: distances at the edges' ends. Edges come by where they begin, x fastest.
+  void add(int axis, const Four& from, const Four& to) {
+    const FourBits crossed = (from < 0.0F) ^ (to < 0.0F);
+    const unsigned set = bits(crossed);
+    const Four apart = from - to;
+    const Four where = crossed ? from / (crossed ? apart : all(1.0F)) : all(0.0F);
+    sum[axis] += where[0] + where[1] + where[2] + where[3];
+    // The second and fourth edge lie high along the lower one of the other axes, the third and
+    // fourth along the higher one.
+    sum[axis == 0 ? 1 : 0] += static_cast<float>(std::popcount(set & 0b1010U));
+    sum[axis == 2 ? 1 : 2] += static_cast<float>(std::popcount(set & 0b1100U));
+    count += std::popcount(set);
+  }
+};
+
 std::optional<SurfaceVertex> vertex_of(const Corners& corners, const VoxelIndex& cell,
                                        double voxel_m) {
-  float sum[3] = {};
-  int crossings = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const int a : kEdgesFrom[axis]) {
-      const float da = corners.distance_m[a];
-      const float db = corners.distance_m[a | 1 << axis];
-      if ((da < 0.0F) == (db < 0.0F)) continue;
-      for (int k = 0; k < 3; ++k) {
-        sum[k] += k == axis ? da / (da - db) : static_cast<float>((a >> k) & 1);
-      }
-      ++crossings;
-    }
-  }
-  if (crossings == 0) return std::nullopt;
-  const Vec3 gradient = gradient_of(corners.distance_m);
-  if (!(gradient.norm() > 1e-9)) return std::nullopt;
+  const Four low = load_four(corners.distance_m.data());
+  const Four high = load_four(corners.distance_m.data() + 4);
+  Crossings crossings;
+  crossings.add(0, Four{low[0], low[2], high[0], high[2]}, Four{low[1], low[3], high[1], high[3]});
+  crossings.add(1, Four{low[0], low[1], high[0], high[1]}, Four{low[2], low[3], high[2], high[3]});
+  crossings.add(2, low, high);
+  if (crossings.count == 0) return std::nullopt;
+  const Vec3 gradient = gradient_of(low, high);
+  const double length = gradient.norm();
+  if (!(length > 1e-9)) return std::nullopt;
   SurfaceVertex vertex;
   vertex.cell = cell;
   vertex.surface.point =
-      voxel_centre(cell, voxel_m) + voxel_m / crossings * Vec3(sum[0], sum[1], sum[2]);
-  vertex.surface.normal = gradient.normalized();
+      voxel_centre(cell, voxel_m) +
+      voxel_m / crossings.count * Vec3(crossings.sum[0], crossings.sum[1], crossings.sum[2]);
+  vertex.surface.normal = gradient / length;
   set_looks(corners.looks, vertex);
   return vertex;
 }
 
 }  // namespace
 
-std::vector<SurfaceVertex> FruitSurface::extract(const FruitTsdf::Block& block) const {
+void FruitSurface::extract(const FruitTsdf::Block& block,
+                           std::vector<SurfaceVertex>& vertices) const {
   const CellCorners corners(tsdf_, block);
-  std::vector<SurfaceVertex> vertices;
+  vertices.clear();
   for (int z = 0; z < kSide; ++z) {
     for (int y = 0; y < kSide; ++y) {
       for (unsigned bits = corners.crossed(y, z); bits != 0; bits &= bits - 1) {
@@ -160,7 +175,6 @@ std::vector<SurfaceVertex> FruitSurface::extract(const FruitTsdf::Block& block) 
       }
     }
   }
-  return vertices;
 }
 
 std::vector<int> FruitSurface::update(int max_blocks) {
@@ -180,8 +194,8 @@ std::vector<int> FruitSurface::update(int max_blocks) {
   waiting_.erase(waiting_.begin(), waiting_.begin() + count);
   std::sort(remade.begin(), remade.end());
   for (const int number : remade) {
-    vertices_[static_cast<std::size_t>(number)] =
-        extract(*tsdf_.blocks()[static_cast<std::size_t>(number)]);
+    const auto n = static_cast<std::size_t>(number);
+    extract(*tsdf_.blocks()[n], vertices_[n]);
   }
   return remade;
 }

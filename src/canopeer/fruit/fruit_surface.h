@@ -49,7 +49,7 @@ class FruitSurface {
   [[nodiscard]] SurfaceMesh mesh() const;
 
  private:
-  [[nodiscard]] std::vector<SurfaceVertex> extract(const FruitTsdf::Block& block) const;
+  void extract(const FruitTsdf::Block& block, std::vector<SurfaceVertex>& vertices) const;
 
   FruitTsdf tsdf_;
   std::vector<std::vector<SurfaceVertex>> vertices_;  // by block number

@@ -1,6 +1,7 @@
 #include "canopeer/fruit/fruit_tsdf.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -35,11 +36,15 @@ bool none_of_eight(const std::uint8_t* labels) {
 }
 
 /// Depth errors grow with the square of the distance, so a pixel counts as much as it is sure.
-float weight_at(float depth_m) {
+Four weights_at(const Four& depth_m) {
   constexpr float kUnitDepth = 0.5F;
-  const float ratio = kUnitDepth / depth_m;
-  return std::clamp(ratio * ratio, 0.05F, 1.0F);
+  const Four ratio = kUnitDepth / depth_m;
+  const Four square = ratio * ratio;
+  const Four low = square < 0.05F ? all(0.05F) : square;
+  return low > 1.0F ? all(1.0F) : low;
 }
+
+Four four(const Eigen::Array4f& a) { return load_four(a.data()); }
 
 }  // namespace
 
@@ -58,15 +63,27 @@ std::vector<float> marked_depths(const DepthImage& depth, float max_range, float
     const float* const down = v + 1 < height ? row + width : row;
     float* const out = marked.data() + (v + 1) * stride + 1;
     const bool border = v == 0 || v + 1 == height;
-    // No branches and no calls: the compiler takes four pixels at a time.
-    for (int u = 1; u + 1 < width; ++u) {
+    const auto is_step = [&](const Four& near, const Four& z) -> FourBits {
+      const Four rise = near - z;
+      return (near > 0.0F) & ((rise > max_step) | (rise < -max_step));
+    };
+    int u = 1;
+    for (; u + 5 <= width; u += 4) {
+      const Four z = load_four(row + u);
+      const FourBits edge = (z > max_range) | is_step(load_four(row + u - 1), z) |
+                            is_step(load_four(row + u + 1), z) | is_step(load_four(up + u), z) |
+                            is_step(load_four(down + u), z);
+      store_four(edge ? -z : z, out + u);
+    }
+    for (; u + 1 < width; ++u) {
       const float z = row[u];
-      const auto step = [&](float near) {
-        return static_cast<int>(near > 0.0F) & static_cast<int>(std::abs(near - z) > max_step);
-      };
-      const int edge = static_cast<int>(border) | static_cast<int>(z > max_range) |
-                       step(row[u - 1]) | step(row[u + 1]) | step(up[u]) | step(down[u]);
-      out[u] = edge != 0 ? -z : z;
+      const auto step = [&](float near) { return near > 0.0F && std::abs(near - z) > max_step; };
+      const bool edge =
+          z > max_range || step(row[u - 1]) || step(row[u + 1]) || step(up[u]) || step(down[u]);
+      out[u] = edge ? -z : z;
+    }
+    if (border) {
+      for (u = 0; u < width; ++u) out[u] = -row[u];
     }
     out[0] = -row[0];
     out[width - 1] = -row[width - 1];
@@ -278,43 +295,54 @@ void FruitTsdf::fuse_cube(Block& block, const VoxelIndex& first, const View& vie
                                 depths[pixel[3]]);
     const Eigen::Array4f distance = (marked.abs() - p.z) * p.per_depth;
     if (distance.maxCoeff() < -view.truncation) continue;
+    const Four marks = four(marked);
+    const Four away = four(distance);
+    // A marked pixel tells of free space only, one without depth of nothing.
+    const FourBits taken =
+        (marks != 0.0F) & (away >= (marks < 0.0F ? all(view.truncation) : all(-view.truncation)));
+    if (bits(taken) == 0) continue;
     const std::size_t voxel = offset(first.x(), first.y() + y, first.z() + z);
-    for (int i = 0; i < kCube; ++i) {
-      // A marked pixel tells of free space only, one without depth of nothing.
-      if (distance[i] < (marked[i] < 0.0F ? view.truncation : -view.truncation)) continue;
-      if (marked[i] == 0.0F) continue;
-      fuse_voxel(block, voxel + static_cast<std::size_t>(i), distance[i], p.z[i],
+    const Four weight = weights_at(four(p.z));
+    fuse_row(block, voxel, taken, away, weight, view);
+    const Four size = away < 0.0F ? -away : away;
+    for (unsigned near = bits(taken & (size <= view.near_surface)); near != 0; near &= near - 1) {
+      const int i = std::countr_zero(near);
+      take_looks(block.looks[voxel + static_cast<std::size_t>(i)], weight[i],
                  static_cast<std::size_t>((p.v[i] - 1) * k.width + p.u[i] - 1), view);
     }
   }
 }
 
-/// `distance` from the voxel, at depth z, to the surface that the pixel sees.
-void FruitTsdf::fuse_voxel(Block& block, std::size_t voxel, float distance, float z,
-                           std::size_t pixel, const View& view) const {
-  const float weight = weight_at(z);
-  const float before = block.distance_m[voxel];
-  const float weight_before = block.weight[voxel];
-  const float sum = weight_before + weight;
-  const float now = (weight_before * before + weight * std::min(distance, view.truncation)) / sum;
-  block.distance_m[voxel] = now;
-  block.weight[voxel] = std::min(sum, view.max_weight);
+/// Four voxels along x at once. `away`: from the voxel to the surface that its pixel sees.
+void FruitTsdf::fuse_row(Block& block, std::size_t voxel, const FourBits& taken, const Four& away,
+                         const Four& weight, const View& view) {
+  const Four before = load_four(&block.distance_m[voxel]);
+  const Four weight_before = load_four(&block.weight[voxel]);
+  const Four sum = weight_before + weight;
+  const Four cut = away < view.truncation ? away : all(view.truncation);
+  const Four now = (weight_before * before + weight * cut) / sum;
+  store_four(taken ? now : before, &block.distance_m[voxel]);
+  const Four kept = sum < view.max_weight ? sum : all(view.max_weight);
+  store_four(taken ? kept : weight_before, &block.weight[voxel]);
   const std::size_t row = voxel / kSide;
-  const auto bit = static_cast<std::uint8_t>(1U << voxel % kSide);
-  if (sum >= kSeenWeight) block.seen[row] |= bit;
-  if (now < 0.0F) {
-    block.inside[row] |= bit;
-  } else {
-    block.inside[row] &= static_cast<std::uint8_t>(~bit);
-  }
-  if (std::abs(now) < 2.0F * view.near_surface || std::abs(before) < 2.0F * view.near_surface) {
-    const bool moved = weight_before == 0.0F || std::abs(now - before) > view.changed;
-    if (moved) {
-      block.changed |= kBelow[(voxel % kSide == 0) + 2 * (row % kSide == 0) + 4 * (row < kSide)];
-    }
-  }
-  if (std::abs(distance) > view.near_surface) return;
-  TsdfLooks& looks = block.looks[voxel];
+  const std::size_t x = voxel % kSide;
+  const unsigned here = bits(taken) << x;
+  block.seen[row] |= static_cast<std::uint8_t>(bits(taken & (sum >= kSeenWeight)) << x);
+  block.inside[row] =
+      static_cast<std::uint8_t>((block.inside[row] & ~here) | bits(taken & (now < 0.0F)) << x);
+  const Four change = now - before;
+  const float band = 2.0F * view.near_surface;
+  const FourBits near = ((now < band) & (now > -band)) | ((before < band) & (before > -band));
+  const FourBits moved =
+      (weight_before == 0.0F) | (change > view.changed) | (change < -view.changed);
+  const unsigned changed = bits(taken & near & moved);
+  if (changed == 0) return;
+  const std::size_t side = 2 * (row % kSide == 0) + 4 * (row < kSide);
+  if (x == 0 && (changed & 1U) != 0) block.changed |= kBelow[1 + side];
+  if (x != 0 || (changed & ~1U) != 0) block.changed |= kBelow[side];
+}
+
+void FruitTsdf::take_looks(TsdfLooks& looks, float weight, std::size_t pixel, const View& view) {
   const std::uint8_t what = view.classes.pixels()[pixel];
   looks.votes[std::min<std::size_t>(what, kPixelLabels - 1)] += weight;
   if (what == 0 || view.frame.color.empty()) return;

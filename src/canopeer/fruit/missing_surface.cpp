@@ -11,8 +11,13 @@ double MissingSurface::seen_share() const {
 
 MissingSurface missing_surface(const Superellipsoid& body, std::span<const SurfacePoint> seen,
                                int samples, double reach_m) {
+  return missing_surface(body.surface_samples(samples), seen, reach_m);
+}
+
+MissingSurface missing_surface(std::span<const SurfacePoint> samples,
+                               std::span<const SurfacePoint> seen, double reach_m) {
   MissingSurface missing;
-  missing.samples = samples;
+  missing.samples = static_cast<int>(samples.size());
   const double reach2 = reach_m * reach_m;
   // Sorted by height, so that only a slice of the points is looked at for each sample.
   std::vector<Vec3> by_height;
@@ -20,7 +25,7 @@ MissingSurface missing_surface(const Superellipsoid& body, std::span<const Surfa
   for (const SurfacePoint& s : seen) by_height.push_back(s.point);
   const auto lower = [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); };
   std::sort(by_height.begin(), by_height.end(), lower);
-  for (const SurfacePoint& sample : body.surface_samples(samples)) {
+  for (const SurfacePoint& sample : samples) {
     const Vec3 reach(0.0, 0.0, reach_m);
     const auto from =
         std::lower_bound(by_height.begin(), by_height.end(), Vec3(sample.point - reach), lower);

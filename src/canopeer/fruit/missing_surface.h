@@ -17,6 +17,9 @@ struct MissingSurface {
   [[nodiscard]] double seen_share() const;
 };
 
+[[nodiscard]] MissingSurface missing_surface(std::span<const SurfacePoint> samples,
+                                             std::span<const SurfacePoint> seen,
+                                             double reach_m = 0.015);
 [[nodiscard]] MissingSurface missing_surface(const Superellipsoid& body,
                                              std::span<const SurfacePoint> seen, int samples = 128,
                                              double reach_m = 0.015);
