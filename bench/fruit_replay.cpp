@@ -159,8 +159,7 @@ class Replay {
       out << name_ << ',' << run_ << ',' << view << ',' << last << ',' << fruits[i].id << ','
           << verdict[i] << ',' << fruits[i].confidence << ',' << e.area_cm2 << ',' << e.seen_share
           << ',' << e.rms_m << ',' << e.fruit_share << ',' << e.views << ',' << e.size_sds << ','
-          << e.normal_spread << ',' << e.looks << ',' << e.foreign_share << ',' << e.free_share
-          << '\n';
+          << e.normal_spread << ',' << e.foreign_share << ',' << e.free_share << '\n';
     }
   }
 
@@ -225,7 +224,7 @@ int main(int argc, char** argv) {
   std::filesystem::create_directories(argv[2]);
   std::ofstream out(std::filesystem::path(argv[2]) / "candidates.csv");
   out << "condition,run,view,last,id,real,confidence,area_cm2,seen_share,rms_m,fruit_share,views,"
-         "size_sds,normal_spread,looks,foreign_share,free_share\n";
+         "size_sds,normal_spread,foreign_share,free_share\n";
   for (int i = 4; i < argc; ++i) {
     const canopeer::RunRecord record = canopeer::must(canopeer::read_record(argv[i]));
     std::istringstream names(argv[3]);

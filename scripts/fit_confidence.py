@@ -21,7 +21,6 @@ FEATURES = [
     ("log area", 1, lambda r: math.log(max(r["area_cm2"], 0.1) / 10.0)),
     ("share seen", 1, lambda r: r["seen_share"]),
     ("misfit", -1, lambda r: min(r["rms_m"], 0.02) / 0.003),
-    ("agreement", 1, lambda r: (2.0 * r["fruit_share"] - 1.0) * math.log1p(r["looks"])),
     ("size", -1, lambda r: min(r["size_sds"], 10.0)),
     ("curvature", 1, lambda r: min(r["normal_spread"], 1.0) / 0.25),
     ("foreign", -1, lambda r: r["foreign_share"]),
@@ -109,8 +108,8 @@ def fit(rows):
 
 def table(rows, w, title):
     print(f"\n{title}: {len(rows)} looks at {len({r['thing'] for r in rows})} things")
-    print("| confidence | looks (things) | real |")
-    print("|---|---|---|")
+    print("| confidence | looks (things) | real, of looks | real, looks weighed |")
+    print("|---|---|---|---|")
     edges = [0.0, 0.1, 0.3, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 1.0]
     for low, high in zip(edges, edges[1:]):
         here = [r for r in rows if low <= probability(w, r["x"]) < high]
@@ -118,7 +117,9 @@ def table(rows, w, title):
             continue
         real = sum(r["real"] for r in here)
         things = len({r["thing"] for r in here})
-        print(f"| {low:g} to {high:g} | {len(here)} ({things}) | {100.0 * real / len(here):.1f} % |")
+        weighed = sum(r["weight"] * r["real"] for r in here) / sum(r["weight"] for r in here)
+        share = f"{100.0 * real / len(here):.0f} % | {100.0 * weighed:.0f} %"
+        print(f"| {low:g} to {high:g} | {len(here)} ({things}) | {share} |")
     loss = -sum(math.log(max(1e-12, p if r["real"] else 1.0 - p)) for r in rows for p in [probability(w, r["x"])])
     print(f"log loss {loss / max(1, len(rows)):.4f}")
 

@@ -6,15 +6,16 @@
 namespace canopeer {
 
 ConfidenceModel::ConfidenceModel() {
-  // 1, log area, share seen, misfit, fruit pixels, log views, size, curvature; see decision 0084.
-  weights << 5.384, 4.662, 3.043, -4.584, 1.117, -1.324, -0.720, -0.997;
+  // By scripts/fit_confidence.py from candidates of bench/fruit_replay; see decision 0086.
+  weights << 1.397, 1.048, 11.509, -8.355, -1.558, 2.362, -4.515, -17.725;
 }
 
 ConfidenceModel::Features ConfidenceModel::features(const FruitEvidence& e) {
   Features f;
+  // 1, log area, share seen, misfit, size, curvature, foreign surface, free space.
   f << 1.0, std::log(std::max(e.area_cm2, 0.1) / 10.0), e.seen_share,
-      std::min(e.rms_m, 0.02) / 0.003, e.fruit_share, std::log(std::max(e.views, 1)),
-      std::min(e.size_sds, 10.0), std::min(e.normal_spread, 1.0) / 0.25;
+      std::min(e.rms_m, 0.02) / 0.003, std::min(e.size_sds, 10.0),
+      std::min(e.normal_spread, 1.0) / 0.25, e.foreign_share, e.free_share;
   return f;
 }
 

@@ -9,17 +9,19 @@ struct FruitEvidence {
   double area_cm2 = 0.0;       ///< of the surface seen
   double seen_share = 0.0;     ///< of the fitted shape's surface
   double rms_m = 0.0;          ///< of the points about the shape
-  double fruit_share = 0.0;    ///< of the pixels on it those taken for fruit
-  int views = 0;               ///< frames it was seen in
   double size_sds = 0.0;       ///< how far its size is from the prior's, standard deviations
   double normal_spread = 0.0;  ///< variance of the normals: 0 for a plane
-  double looks = 0.0;          ///< pixels that judged a place on it, each by how near it was: mean
   double foreign_share = 0.0;  ///< of the surface that fits the shape what is taken for no fruit
-  double free_share = 0.0;     ///< of the shape's surface what lies where nothing is
+  double free_share = 0.0;     ///< of the shape's surface what lies where cameras saw nothing
+  // What does not count by itself (decision 0086), for whoever fits another model.
+  double fruit_share = 0.0;  ///< of the pixels on it those taken for fruit
+  int views = 0;             ///< frames it was seen in
 };
 
-/// Logistic regression on the evidence. The weights were fitted on simulated runs; how, and how
-/// well they hold on others, is in docs/decisions/0084-calibrated-confidence.md.
+/// Logistic regression on the evidence: log-odds that add up. More area, more of the shape and more
+/// curvature speak for a fruit, never against; misfit, an odd size, surface that goes on as
+/// something else and shape where there is nothing against, never for. The weights were fitted on
+/// simulated runs; how, and how well they hold on others, is in docs/decisions/0086.
 struct ConfidenceModel {
   static constexpr int kFeatures = 8;
   using Features = Eigen::Matrix<double, kFeatures, 1>;

@@ -189,7 +189,6 @@ void FruitMap::State::solve(const Patch& patch, std::vector<KnownFruit>& found) 
     Eigen::Array3d color = Eigen::Array3d::Zero();
     std::array<int, kPixelLabels> votes{};
     double fruit_share = 0.0;
-    double looks = 0.0;
     for (const int i : separated.points) {
       const SurfaceVertex& v = *patch.vertex[static_cast<std::size_t>(i)];
       fruit.cells.push_back(voxel_key(v.cell));
@@ -197,7 +196,6 @@ void FruitMap::State::solve(const Patch& patch, std::vector<KnownFruit>& found) 
       color += Eigen::Array3d(v.color.r, v.color.g, v.color.b);
       ++votes[static_cast<std::size_t>(v.kind)];
       fruit_share += static_cast<double>(v.fruit_share);
-      looks += static_cast<double>(v.looks);
     }
     sort_unique(fruit.cells);
     sort_unique(fruit.blocks);
@@ -208,7 +206,6 @@ void FruitMap::State::solve(const Patch& patch, std::vector<KnownFruit>& found) 
         static_cast<PixelLabel>(std::max_element(votes.begin() + 1, votes.end()) - votes.begin());
     e.centre = separated.shape.centre;
     fruit.seen.fruit_share = fruit_share / e.points;
-    fruit.seen.looks = looks / e.points;
     fruit.seen.normal_spread = normal_spread(patch.surface, separated.points);
     fruit.seen.foreign_share = foreign_share(separated.shape, fruit);
     fruit.surface.reserve(separated.points.size());

@@ -106,7 +106,6 @@ void set_looks(const std::array<const TsdfLooks*, 8>& corners, SurfaceVertex& ve
   }
   const float fruit = votes[1] + votes[2] + votes[3];
   vertex.fruit_share = fruit / std::max(1e-6F, fruit + votes[0]);
-  vertex.looks = (fruit + votes[0]) / static_cast<float>(corners.size());
   int most = 1;
   for (int k = 2; k < kPixelLabels; ++k) most = votes[k] > votes[most] ? k : most;
   vertex.kind = static_cast<PixelLabel>(most);

@@ -15,7 +15,6 @@ struct SurfaceVertex {
   SurfacePoint surface;                  ///< world, outward normal
   Rgb color;
   float fruit_share = 0.0F;  ///< of the pixels seen near it those taken for fruit, 0 … 1
-  float looks = 0.0F;        ///< pixels that said whether it is fruit, nearer ones count for more
   PixelLabel kind = PixelLabel::background;  ///< most voted of the fruit classes
 };
 

@@ -57,7 +57,6 @@ FruitEvidence evidence_of(const FruitEstimate& fruit, const FruitMapOptions& opt
   e.size_sds = std::hypot((across - prior.radius_m) / prior.radius_sd_m,
                           (fruit.semi_axes_m.z() - prior.half_length_m) / prior.half_length_sd_m);
   e.normal_spread = seen.normal_spread;
-  e.looks = seen.looks;
   e.foreign_share = seen.foreign_share;
   e.free_share = seen.free_share;
   return e;

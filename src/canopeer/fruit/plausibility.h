@@ -17,7 +17,6 @@ namespace canopeer {
 /// said anything against it.
 struct SurfaceEvidence {
   double fruit_share = 1.0;
-  double looks = 10.0;
   double normal_spread = 0.0;
   double foreign_share = 0.0;
   double free_share = 0.0;
