@@ -110,7 +110,7 @@ def table(rows, w, title):
     print(f"\n{title}: {len(rows)} looks at {len({r['thing'] for r in rows})} things")
     print("| confidence | looks (things) | real, of looks | real, looks weighed |")
     print("|---|---|---|---|")
-    edges = [0.0, 0.1, 0.3, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 1.0]
+    edges = [0.0, 0.1, 0.3, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 1.01]
     for low, high in zip(edges, edges[1:]):
         here = [r for r in rows if low <= probability(w, r["x"]) < high]
         if not here:
@@ -119,7 +119,7 @@ def table(rows, w, title):
         things = len({r["thing"] for r in here})
         weighed = sum(r["weight"] * r["real"] for r in here) / sum(r["weight"] for r in here)
         share = f"{100.0 * real / len(here):.0f} % | {100.0 * weighed:.0f} %"
-        print(f"| {low:g} to {high:g} | {len(here)} ({things}) | {share} |")
+        print(f"| {low:g} to {min(high, 1.0):g} | {len(here)} ({things}) | {share} |")
     loss = -sum(math.log(max(1e-12, p if r["real"] else 1.0 - p)) for r in rows for p in [probability(w, r["x"])])
     print(f"log loss {loss / max(1, len(rows)):.4f}")
 

@@ -106,6 +106,31 @@ TEST(FruitMap, LeavesOutClipsLabelsStringsPipesAndWhatLiesOnTheFloor) {
   }
 }
 
+TEST(FruitMap, IsLessSureOfASpotWhoseSurfaceGoesOnAsSomethingElse) {
+  FruitMap whole;
+  FruitMap spot;
+  for (const Vec3& camera : around(0.5)) {
+    View view = look({pepper(kFruit)}, camera, kFruit);
+    whole.add(view.frame, view.fruit);
+    for (int v = 0; v < view.fruit.height(); ++v) {
+      for (int u = 0; u < view.fruit.width(); ++u) {
+        const Vec3 p = view.frame.T_world_camera *
+                       (double{view.frame.depth.at(u, v)} * view.frame.intrinsics.ray(u, v));
+        if (p.z() < kFruit.z()) view.fruit.at(u, v) = 0;
+      }
+    }
+    spot.add(view.frame, view.fruit);
+  }
+  whole.update();
+  spot.update();
+  ASSERT_EQ(whole.candidates().size(), 1U);
+  ASSERT_EQ(spot.candidates().size(), 1U);
+  EXPECT_LT(whole.evidence(0).foreign_share, 0.05);
+  EXPECT_LT(whole.evidence(0).free_share, 0.05);
+  EXPECT_GT(spot.evidence(0).foreign_share, 0.2);
+  EXPECT_LT(spot.candidates()[0].confidence, whole.candidates()[0].confidence);
+}
+
 TEST(FruitMap, PutsOffWhatIsTooMuchForOneUpdateAndMissesNothingInTheEnd) {
   std::vector<Body> bodies;
   for (int i = 0; i < 4; ++i) bodies.push_back(pepper(kFruit + Vec3(0.0, 0.16 * (i - 1.5), 0.0)));

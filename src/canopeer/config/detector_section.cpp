@@ -43,8 +43,8 @@ void read_network(YamlMap& detector, const std::filesystem::path& directory,
                   NetworkDetectorOptions& o) {
   const std::filesystem::path model = detector.required_text("model");
   o.model = model.is_absolute() ? model : directory / model;
-  o.input_width_px = detector.integer("input_width_px", o.input_width_px, 1, 8192);
-  o.input_height_px = detector.integer("input_height_px", o.input_height_px, 1, 8192);
+  o.input_width_px = detector.integer("input_width_px", o.input_width_px, 32, 8192);
+  o.input_height_px = detector.integer("input_height_px", o.input_height_px, 32, 8192);
   o.scale = detector.number("scale", o.scale, {1e-9, 1e9});
   o.mean = detector.numbers("mean", o.mean, 3);
   o.bgr = detector.boolean("bgr", o.bgr);

@@ -140,9 +140,10 @@ Expected<Detection> NetworkDetector::detect(const RgbdFrame& frame) const {
 
 Expected<void> NetworkDetectorOptions::validate() const {
   if (model.empty()) return fail("model: expected the path of an ONNX file");
-  if (input_width_px < 1 || input_height_px < 1 || input_width_px > 8192 ||
+  // In less than 32 pixels a whole view fits, but no fruit.
+  if (input_width_px < 32 || input_height_px < 32 || input_width_px > 8192 ||
       input_height_px > 8192) {
-    return fail("input_width_px and input_height_px must be in 1..8192");
+    return fail("input_width_px and input_height_px must be in 32..8192");
   }
   if (!(scale > 0.0)) return fail("scale must be positive");
   if (mean.size() != 3) return fail("mean: expected three numbers");

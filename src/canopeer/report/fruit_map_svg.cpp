@@ -26,7 +26,8 @@ struct Panel {
   std::string down_label;
   int down_axis = 2;  ///< of the world
   bool down_is_positive = false;
-  Box shown;  ///< world
+  bool mirrored = false;  ///< y runs to the left: so it does for who looks along +x
+  Box shown;              ///< world
   std::vector<std::size_t> fruits, truths;
   bool cameras = false;
   double top = 0.0;
@@ -106,9 +107,10 @@ class FruitMap {
       take(body_of(input_.fruits[i]), i, panel.fruits);
     }
     const std::size_t count = panel.truths.size() + panel.fruits.size();
-    panel.head = fmt::format("Row at x \u2248 {} m, front view",
+    panel.head = fmt::format("Row at x \u2248 {} m, seen from the aisle",
                              AxisTicks{{}, 2}.label(count ? sum / static_cast<double>(count) : 0));
     panel.down_label = "z / m";
+    panel.mirrored = positive_side;
     return panel;
   }
 
@@ -158,7 +160,7 @@ class FruitMap {
 
   [[nodiscard]] PictureProjection projection(const Panel& panel) const {
     PictureProjection p = PictureProjection::Zero();
-    p(0, 1) = scale_;
+    p(0, 1) = panel.mirrored ? -scale_ : scale_;
     p(1, panel.down_axis) = panel.down_is_positive ? scale_ : -scale_;
     return p;
   }
@@ -166,7 +168,8 @@ class FruitMap {
   [[nodiscard]] Eigen::Vector2d origin(const Panel& panel) const {
     const double low = panel.shown.min()[panel.down_axis];
     const double high = panel.shown.max()[panel.down_axis];
-    return {kLeft - scale_ * y_low_, panel.top + scale_ * (panel.down_is_positive ? -low : high)};
+    const double left = panel.mirrored ? scale_ * y_high_ : -scale_ * y_low_;
+    return {kLeft + left, panel.top + scale_ * (panel.down_is_positive ? -low : high)};
   }
 
   [[nodiscard]] std::string panel_svg(const Panel& panel) const {
@@ -189,7 +192,7 @@ class FruitMap {
         fmt::format("<text x=\"0\" y=\"{:.1f}\">{}</text>\n", panel.top - 12.0, panel.down_label);
     const AxisTicks across = axis_ticks(y_low_, y_high_, static_cast<int>((right - kLeft) / 70.0));
     for (const double tick : across.values) {
-      const double x = o.x() + scale_ * tick;
+      const double x = o.x() + p(0, 1) * tick;
       svg += fmt::format(
           "<line x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{0:.1f}\" y2=\"{2:.1f}\" class=\"grid\"/>"
           "<text x=\"{0:.1f}\" y=\"{3:.1f}\" text-anchor=\"middle\">{4}</text>\n",
