@@ -48,7 +48,7 @@ void walk_rays_scalar(const RayLanes& rays, std::size_t voxels, const RaySteps& 
 
 #if defined(__x86_64__)
 
-CANOPEER_TARGET_AVX2 [[gnu::always_inline]] inline __m256i four(const std::int64_t* lanes) {
+[[gnu::always_inline]] CANOPEER_TARGET_AVX2 inline __m256i four(const std::int64_t* lanes) {
   return _mm256_load_si256(reinterpret_cast<const __m256i*>(lanes));
 }
 
