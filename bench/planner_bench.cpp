@@ -14,6 +14,7 @@
 
 #include "bench_rows.h"
 #include "canopeer/detect/color_detector.h"
+#include "canopeer/map/frontier_index.h"
 #include "canopeer/map/view_cast.h"
 #include "canopeer/planner/vmp/vmp_planner.h"
 #include "canopeer/search/path_tree.h"
@@ -340,6 +341,8 @@ void replan(benchmark::State& state) {
     const ColorDetector detector;
     auto& map = const_cast<VoxelMap&>(world.perception.map());
     auto& field = const_cast<DistanceField&>(world.perception.field());
+    FrontierIndex frontiers(world.frame.sampling_region_world, map.resolution_m());
+    frontiers.rebuild(map);
     CostTable free;
     VmpOptions options;
     options.builder.max_nodes = 1000;
@@ -374,7 +377,8 @@ void replan(benchmark::State& state) {
       change.blocks = fuse(map, frame, seen.fruit).changed;
       const double fused_s = cpu_now_s();
       field.update(map, change.blocks);
-      change.targets = extract_frontiers(map, world.frame.sampling_region_world);
+      frontiers.update(map, change.blocks);
+      change.targets = frontiers.targets();
       planner.map_changed(std::move(change));
       const Decision decision = planner.decide(q, work);
       const double end_s = cpu_now_s();

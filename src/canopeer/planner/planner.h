@@ -67,7 +67,7 @@ struct PlanningScene {
   const CostTable* costs = nullptr;
   /// What background tasks read, on the wall clock; null in simulated time, where nothing changes
   /// while a task runs: map and checker.
-  std::shared_ptr<const MapSnapshot> snapshot;
+  std::shared_ptr<const MapSnapshot> snapshot{};
   SegmentFrame segment;
   std::uint64_t seed = 1;
 };
