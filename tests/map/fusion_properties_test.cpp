@@ -235,8 +235,10 @@ TEST(VoxelSetLaws, AUnionOfManyIsWhatMergingThemGives) {
       std::vector<VoxelSet::Block> list;
       for (const auto& [key, block] : blocks) list.push_back(block);
       const VoxelSet set(std::move(list));
+      EXPECT_EQ(together.count_new(set), merged.count_new(set));
       merged.merge(set);
       together.add(set);
+      EXPECT_EQ(together.count_new(set), 0);
       EXPECT_EQ(together.count(), merged.count());
     }
     EXPECT_EQ(together.set(), merged);

@@ -5,9 +5,14 @@
 namespace canopeer {
 
 // A place that is taken by another block is followed by the next; at most half of them are taken.
-std::uint32_t VoxelUnion::find_beside(BlockKey key) {
+std::size_t VoxelUnion::place_of(BlockKey key) const {
   std::size_t i = home(key);
   while (numbers_[i] != kNone && keys_[numbers_[i]] != key) i = (i + 1) & (numbers_.size() - 1);
+  return i;
+}
+
+std::uint32_t VoxelUnion::find_beside(BlockKey key) {
+  const std::size_t i = place_of(key);
   if (numbers_[i] == kNone) {
     numbers_[i] = count_;
     keys_[count_++] = key;
@@ -60,6 +65,21 @@ std::int64_t VoxelUnion::count() const {
   std::int64_t count = 0;
   for (std::uint32_t i = 0; i < count_; ++i) count += masks_[i].count();
   return count;
+}
+
+std::int64_t VoxelUnion::count_new(const VoxelSet& set) const {
+  static constexpr Mask kNothing{};
+  std::int64_t fresh = 0;
+  for (const VoxelSet::Block& block : set.blocks()) {
+    std::uint32_t number = numbers_[home(block.key)];
+    if (number != kNone && keys_[number] != block.key) [[unlikely]] {
+      number = numbers_[place_of(block.key)];
+    }
+    VoxelMask left = block.mask;
+    left -= number == kNone ? kNothing : masks_[number];
+    fresh += left.count();
+  }
+  return fresh;
 }
 
 VoxelSet VoxelUnion::set() const {

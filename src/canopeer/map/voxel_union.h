@@ -7,14 +7,17 @@
 
 namespace canopeer {
 
-/// The union of many voxel sets, one after the other: blocks are found by a table that follows from
-/// their indices, so adding a set costs what it holds, however much is there already. Its memory is
-/// used again after clear().
+/// The union of many voxel sets, one after the other, each used a few times only (sets used often
+/// are worth preparing: CellUnion). Blocks are found by a table that follows from their indices, so
+/// adding a set, or counting what it would add, costs what it holds, however much is there already.
+/// The memory is used again after clear().
 class VoxelUnion {
  public:
   void clear();
   void add(const VoxelSet& set);
   [[nodiscard]] std::int64_t count() const;
+  /// |set \ this|: by how much add(set) would make the union grow.
+  [[nodiscard]] std::int64_t count_new(const VoxelSet& set) const;
   [[nodiscard]] VoxelSet set() const;
 
  private:
@@ -27,6 +30,8 @@ class VoxelUnion {
     return static_cast<std::size_t>((key & low) | (key >> 21 & low) << bits_ |
                                     (key >> 42 & low) << 2 * bits_);
   }
+  /// The place of a block, or the free one it would get.
+  [[nodiscard]] std::size_t place_of(BlockKey key) const;
   /// The number of a block whose place is taken by another; a new one when it is not there.
   std::uint32_t find_beside(BlockKey key);
   void grow();

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "canopeer/search/cell_union.h"
+#include "canopeer/map/voxel_union.h"
 #include "canopeer/search/view_casts.h"
 
 namespace canopeer {
@@ -23,7 +23,6 @@ struct Reached {
   int roi_views = 0;
   int views = 0;
   double gain = 0.0;
-  CellUnion::Prepared cells;
 };
 
 struct Queued {
@@ -79,7 +78,9 @@ class ReleasedSearch {
 
   void cover_path(NodeId id) {
     covered_.clear();
-    for (NodeId n = id; n != start_; n = at(n).from) covered_.add(at(n).cells);
+    for (NodeId n = id; n != start_; n = at(n).from) {
+      covered_.add(graph_.node(n).cast->unknown);
+    }
   }
 
   void reach(const ViewEdge& edge, NodeId from) {
@@ -87,15 +88,14 @@ class ReleasedSearch {
     Reached r = at(from);
     r.expanded = false;
     r.from = from;
-    r.cells = covered_.prepare(node.cast->unknown);
     r.cost_rad += joint_distance(graph_.node(from).view.q, node.view.q);
     r.edge_time_s = edge.time_s;
-    r.new_unknown = covered_.count_new(r.cells);
+    r.new_unknown = covered_.count_new(node.cast->unknown);
     r.unknown += r.new_unknown;
     r.roi_views += node.view.kind == TargetKind::roi ? 1 : 0;
     r.views += 1;
     r.gain = static_cast<double>(r.unknown) * (r.roi_views + 1) / (r.views + 1);
-    at(edge.to) = std::move(r);
+    at(edge.to) = r;
     queue_.push({at(edge.to).cost_rad, edge.to});
   }
 
@@ -103,7 +103,7 @@ class ReleasedSearch {
   NodeId start_;
   std::vector<Reached> nodes_;
   std::priority_queue<Queued> queue_;
-  CellUnion covered_;
+  VoxelUnion covered_;
 };
 
 }  // namespace
