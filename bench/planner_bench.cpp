@@ -4,7 +4,6 @@
 
 #include <benchmark/benchmark.h>
 #include <octomap/octomap.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +12,14 @@
 #include <vector>
 
 #include "bench_rows.h"
+#include "bench_threads.h"
 #include "canopeer/detect/color_detector.h"
 #include "canopeer/map/frontier_index.h"
 #include "canopeer/map/view_cast.h"
 #include "canopeer/planner/vmp/vmp_planner.h"
 #include "canopeer/search/path_tree.h"
 #include "canopeer/search/random_walk.h"
+#include "canopeer/search/view_casts.h"
 #include "canopeer/viewgraph/graph_builder.h"
 #include "support/planning_fixture.h"
 
@@ -181,6 +182,18 @@ Search& search() {
   return one;
 }
 
+/// As the search does before it expands a node.
+void cast_anew(const std::vector<ViewEdge>& neighbors) {
+  ViewGraph& graph = search().built.graph;
+  std::vector<NodeId> ids;
+  for (const auto& edge : neighbors) {
+    graph.node(edge.to).cast.reset();
+    ids.push_back(edge.to);
+  }
+  WorkMeter work;
+  ensure_casts(graph, ids, segment().map(), kFan, work);
+}
+
 /// Expands the tree's ends: C(n), then U of each neighbour. Cold: only neighbours that are come to
 /// for the first time, their views cast then, as in a search after a frame that changed everything.
 void expand_ends(benchmark::State& state, bool cold) {
@@ -192,13 +205,8 @@ void expand_ends(benchmark::State& state, bool cold) {
   std::size_t i = 0;
   const auto expand = [&] {
     tree.expand(search().ends[i]);
-    for (const auto& edge : neighbors[i]) {
-      if (cold) {
-        ViewNode& node = search().built.graph.node(edge.to);
-        node.cast = cast_view(segment().map(), node.view.T_world_camera, kFan);
-      }
-      sum += tree.utility_behind(edge.to, edge.time_s);
-    }
+    if (cold) cast_anew(neighbors[i]);
+    for (const auto& edge : neighbors[i]) sum += tree.utility_behind(edge.to, edge.time_s);
     evaluated += static_cast<std::int64_t>(neighbors[i].size());
     i = (i + 1) % neighbors.size();
   };
@@ -221,7 +229,12 @@ void expand_ends(benchmark::State& state, bool cold) {
 void expansions(benchmark::State& state) { expand_ends(state, false); }
 void expansions_cold(benchmark::State& state) { expand_ends(state, true); }
 BENCHMARK(expansions);
+void expansions_cold_two_threads(benchmark::State& state) {
+  const Threads two(2);
+  expand_ends(state, true);
+}
 BENCHMARK(expansions_cold);
+BENCHMARK(expansions_cold_two_threads)->UseRealTime();
 
 // --- the published way ---
 
@@ -405,11 +418,16 @@ BENCHMARK(replan)->Iterations(1)->Unit(benchmark::kMillisecond);
 }  // namespace canopeer
 
 int main(int argc, char** argv) {
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const canopeer::Threads one(1);
   using canopeer::BenchRow;
   const std::vector<BenchRow> rows = {
       {.name = "planner.expansions_cold",
        .ours = "expansions_cold",
+       .baseline = "expansions_octomap",
+       .unit = "1/s"},
+      // By the clock: the search casts a node's neighbours in parallel.
+      {.name = "planner.expansions_cold_two_threads",
+       .ours = "expansions_cold_two_threads",
        .baseline = "expansions_octomap",
        .unit = "1/s"},
       {.name = "planner.expansions",

@@ -250,6 +250,22 @@ TEST(SimdKernels, RaysCrossTheVoxelsAPlainWalkerCrosses) {
   }
 }
 
+TEST(SimdKernels, EnteredBlocksAreTurnedIntoARowALane) {
+  Rng rng(7, "enters");
+  for (const std::size_t steps : {1U, 8U, 63U, 64U, 65U, 200U}) {
+    std::vector<std::uint8_t> enters((steps + 7) / 8 * 8);
+    for (std::uint8_t& lanes : enters) lanes = static_cast<std::uint8_t>(rng.uniform(0, 256));
+    std::vector<std::uint64_t> rows(RayLanes::kCount * (steps / 64 + 1));
+    const std::size_t words = turn_enters(enters.data(), steps, rows.data());
+    for (std::size_t lane = 0; lane < RayLanes::kCount; ++lane) {
+      for (std::size_t step = 0; step < steps; ++step) {
+        ASSERT_EQ(rows[lane * words + step / 64] >> (step % 64) & 1, enters[step] >> lane & 1U)
+            << steps << " steps, lane " << lane << ", step " << step;
+      }
+    }
+  }
+}
+
 TEST(SimdKernels, DistanceTilesAreTheSame) {
   Rng rng(5, "tiles");
   for (const int halo : {1, 2, 4}) {

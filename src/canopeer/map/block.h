@@ -56,9 +56,9 @@ struct VoxelMask {
     return std::uint64_t{1} << ((voxel.y() & (kBlockSide - 1)) << kBlockShift |
                                 (voxel.x() & (kBlockSide - 1)));
   }
-  static VoxelMask all() {
+  static constexpr VoxelMask all() {
     VoxelMask mask;
-    mask.slices.fill(~std::uint64_t{0});
+    for (std::uint64_t& slice : mask.slices) slice = ~std::uint64_t{0};
     return mask;
   }
 

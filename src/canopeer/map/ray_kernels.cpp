@@ -5,6 +5,8 @@
 #endif
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 
 #include "canopeer/map/kernel_targets.h"
 
@@ -136,7 +138,35 @@ CANOPEER_TARGET_AVX512 void walk_rays_avx512(const RayLanes& rays, std::size_t v
 
 #endif
 
+// An 8 × 8 matrix of bits, a row a byte: bit j of byte i becomes bit i of byte j (Warren, Hacker's
+// Delight, 2nd ed., 7-3).
+std::uint64_t transposed(std::uint64_t m) {
+  const auto swap = [&m](int distance, std::uint64_t which) {
+    const std::uint64_t differ = (m ^ (m >> distance)) & which;
+    m ^= differ ^ (differ << distance);
+  };
+  swap(7, 0x00AA00AA00AA00AA);
+  swap(14, 0x0000CCCC0000CCCC);
+  swap(28, 0x00000000F0F0F0F0);
+  return m;
+}
+
 }  // namespace
+
+std::size_t turn_enters(const std::uint8_t* enters, std::size_t steps, std::uint64_t* rows) {
+  const std::size_t words = (steps + 63) / 64;
+  static_assert(std::endian::native == std::endian::little);
+  for (std::size_t eight = 0; 8 * eight < steps; ++eight) {
+    std::uint64_t m = 0;
+    std::memcpy(&m, enters + 8 * eight, sizeof m);
+    m = transposed(m);
+    auto* const bytes = reinterpret_cast<std::uint8_t*>(rows) + eight;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      bytes[lane * words * 8] = static_cast<std::uint8_t>(m >> (8 * lane));
+    }
+  }
+  return words;
+}
 
 WalkRays walk_rays_kernel([[maybe_unused]] SimdLevel level) {
   return CANOPEER_AT_LEVEL(level, walk_rays);

@@ -20,10 +20,17 @@ inline constexpr PackedVoxel kOneOf[3] = {1, PackedVoxel{1} << kFieldBits,
                                           PackedVoxel{1} << 2 * kFieldBits};
 inline constexpr PackedVoxel kInBlock = (kBlockSide - 1) * (kOneOf[0] + kOneOf[1] + kOneOf[2]);
 
-/// Index of the voxel's block along an axis.
-inline int block_along(PackedVoxel p, int axis) {
-  return static_cast<int>(p >> (axis * kFieldBits + kBlockShift) &
-                          ((1 << (kFieldBits - kBlockShift)) - 1));
+inline constexpr PackedVoxel kBlockField = (1 << (kFieldBits - kBlockShift)) - 1;
+
+/// The voxel's block, counted from the window's first, in the same fields. Add it to the key of
+/// that one for its own.
+inline BlockKey block_of(PackedVoxel p) {
+  return static_cast<BlockKey>(p >> kBlockShift) &
+         static_cast<BlockKey>(kBlockField * (kOneOf[0] + kOneOf[1] + kOneOf[2]));
+}
+template <int axis>
+std::uint32_t field(BlockKey block) {
+  return static_cast<std::uint32_t>(block >> (axis * kFieldBits) & BlockKey{kBlockField});
 }
 }  // namespace packed_voxel
 
@@ -66,6 +73,10 @@ struct RaySteps {
 /// Walks as walk_voxels() does, `voxels` voxels in all lanes; a walk shorter than that goes on past
 /// its end. At most 64 times the steps of the shortest one, or times overflow.
 using WalkRays = void (*)(const RayLanes& rays, std::size_t voxels, const RaySteps& out);
+
+/// Turns RaySteps::enters of `steps` steps (read in eights) into a row of bits a lane: bit i of
+/// word w says whether step 64 w + i enters a block. Returns the words of a row.
+std::size_t turn_enters(const std::uint8_t* enters, std::size_t steps, std::uint64_t* rows);
 
 /// `level` must be one the machine has.
 WalkRays walk_rays_kernel(SimdLevel level);

@@ -26,55 +26,53 @@ class ViewCaster {
 
  private:
   static constexpr std::uint32_t kNew = 0;
-  static constexpr std::uint32_t kClear = 0xFFFFFFFF;
 
-  // A block met; blocks are numbered from 1.
-  struct Met {
-    BlockKey key;
-    std::uint32_t crossed;  // place, or kClear: all free, nothing to find and nothing in the way
-  };
-  struct Crossed {
-    const BlockMasks* known;    // nullptr: nothing observed there
-    const VoxelMask* observed;  // never nullptr
+  // What a ray meets in a block.
+  struct Seen {
+    const VoxelMask* observed;  // of a clear block (nothing to find, nothing in the way) kClear
     const VoxelMask* occupied;  // never nullptr
-    VoxelMask voxels;           // crossed before an occupied one
+    const BlockMasks* known;    // nullptr: nothing observed there
   };
+  struct alignas(64) Crossed : VoxelMask {};
   struct Ray {
     std::size_t voxels;        // it crosses
     std::size_t unknown_left;  // it may still cross
   };
   // A block on a ray's way, and the ray's first step there.
   struct OnTheWay {
-    std::uint32_t step, cell, crossed;
+    std::uint32_t step, cell, number;
   };
-  // Memory that a thread uses again from view to view.
+  // Memory that a thread uses again from view to view. Blocks met are numbered from 1.
   struct Scratch {
     std::vector<std::uint32_t> number;   // per cell: kNew, or the block's number
     std::vector<std::uint64_t> entered;  // per cell a bit: some ray came here
-    std::vector<Met> met;
-    std::vector<Crossed> crossed;
-    std::vector<VoxelMask> stops;  // where rays stopped, by place in crossed; only for all_
+    std::vector<BlockKey> keys;          // per number, as the next three
+    std::vector<Seen> seen;
+    std::vector<Crossed> crossed;  // voxels crossed before an occupied one; none of clear blocks
+    std::vector<VoxelMask> stops;  // where rays stopped; only for all_
+    std::vector<std::uint32_t> in_order;
     std::vector<VoxelSet::Block> found;
     // Of the rays being cast.
     RayLanes lanes;
     std::vector<RayLanes::Row<PackedVoxel>> at;
     std::vector<RayLanes::Row<std::uint16_t>> offset;
     std::vector<std::uint8_t> enters;
+    std::vector<std::uint64_t> turned;  // the same, a row of bits a lane
     std::vector<OnTheWay> way;
   };
   static Scratch& scratch();
 
   void cast_together(const Vec3& from, std::span<const Vec3> ends, double max_unknown_m);
-  std::size_t find_way(std::size_t lane, std::size_t voxels);
-  void follow(std::size_t lane, std::size_t blocks, Ray ray);
-  bool walk_in_block(Crossed& block, const std::uint16_t* offsets, std::size_t voxels,
+  void make_room(std::size_t voxels);
+  std::size_t find_way(std::size_t lane, std::size_t voxels, std::size_t words, OnTheWay* way);
+  void look_up_new();
+  Seen look_up(BlockKey key);
+  void follow(std::size_t lane, std::span<const OnTheWay> way, Ray ray);
+  bool walk_in_block(std::uint32_t number, const std::uint16_t* offsets, std::size_t voxels,
                      std::size_t& unknown_left);
-  std::uint32_t number_new(BlockKey key);
-  std::uint32_t look_up(BlockKey key);
-  void stop_at(const Crossed& block, std::size_t slice, std::uint64_t bit);
-  // `visit(BlockKey, const Crossed*)` (nullptr: clear) for the blocks entered, sorted by key.
-  template <typename Visit>
-  void for_each_entered(Visit&& visit) const;
+  void stop_at(std::uint32_t number, std::size_t slice, std::uint64_t bit);
+  // Numbers of the blocks entered, sorted by key.
+  std::span<const std::uint32_t> entered() const;
 
   const VoxelMap& map_;
   bool all_;
@@ -82,6 +80,8 @@ class ViewCaster {
   VoxelIndex first_block_;
   VoxelIndex blocks_;  // of the window, per axis
   Scratch& memory_;
+  std::uint32_t met_ = 0;        // blocks numbered
+  std::uint32_t looked_up_ = 0;  // of them
   BlockKey chunk_key_ = ~BlockKey{0};
   const BlockDirectory::Chunk* chunk_ = nullptr;  // the last one asked for
 };
