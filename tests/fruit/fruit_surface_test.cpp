@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "../detect/synthetic_view.h"
-#include "canopeer/fruit/depth_tiles.h"
 #include "canopeer/fruit/missing_surface.h"
 
 namespace canopeer {
@@ -99,17 +98,6 @@ TEST(FruitSurface, KnowsLeavesFromFruitByTheirPixels) {
     EXPECT_LT(v.fruit_share, 0.5F);
   }
   EXPECT_GT(on_leaf, 20);
-}
-
-TEST(DepthTiles, KnowTheFarthestDepthOfARectangle) {
-  DepthImage depth(50, 30, 0.5F);
-  depth.at(49, 29) = 2.0F;
-  depth.at(20, 10) = 1.5F;
-  const DepthTiles tiles(depth);
-  EXPECT_EQ(tiles.farthest(-10.0, -10.0, 100.0, 100.0), 2.0F);
-  EXPECT_EQ(tiles.farthest(20.0, 10.0, 20.5, 10.5), 1.5F);
-  EXPECT_EQ(tiles.farthest(0.0, 0.0, 3.0, 3.0), 0.5F);
-  EXPECT_EQ(tiles.farthest(60.0, 0.0, 70.0, 10.0), 0.0F);
 }
 
 TEST(MissingSurface, OfABallSeenFromOneSideIsTheOther) {

@@ -32,10 +32,11 @@ struct KnownFruit {
 
 /// Surface of the blocks that hang together, and which block each point comes from.
 struct Patch {
-  std::vector<int> blocks;  ///< ascending
-  bool known = false;       ///< some of it belongs to a fruit already
-  int since = 0;            ///< the update its oldest change waits since
-  std::vector<SurfacePoint> surface;
+  std::vector<int> blocks;            ///< ascending
+  bool known = false;                 ///< some of it belongs to a fruit already
+  int since = 0;                      ///< the update its oldest change waits since
+  int points = 0;                     ///< of fruit surface
+  std::vector<SurfacePoint> surface;  ///< once the patch is taken
   std::vector<const SurfaceVertex*> vertex;
   std::vector<int> block;
 };
@@ -89,7 +90,7 @@ struct FruitMap::State {
   int fits = 0;
   // Frames since the last update, and before it while what they saw may still be waiting.
   std::vector<Sight> sights;
-  std::vector<char> fruit_block;  // by block: whether any of its surface counts
+  std::vector<int> fruit_points;  // by block: how much of its surface counts
   int updates = 0;
   static constexpr int kNotWaiting = -1;
   std::vector<int> waits_since;  // by block: the update its oldest change was there for
@@ -99,6 +100,7 @@ struct FruitMap::State {
   }
   std::vector<int> update_surface(int max_blocks);
   [[nodiscard]] std::vector<Patch> patches_around(const std::vector<int>& changed) const;
+  void collect_surface(Patch& patch) const;
   void drop_odd_pieces(Patch& patch) const;
   void solve(const Patch& patch, std::vector<KnownFruit>& found) const;
   [[nodiscard]] double foreign_share(const ShapeEstimate& shape, const KnownFruit& fruit) const;
@@ -115,11 +117,12 @@ struct FruitMap::State {
 /// The numbers of the blocks whose surface is another now.
 std::vector<int> FruitMap::State::update_surface(int max_blocks) {
   std::vector<int> changed = surface.update(max_blocks);
-  fruit_block.resize(surface.tsdf().blocks().size(), 0);
+  fruit_points.resize(surface.tsdf().blocks().size(), 0);
   for (const int block : changed) {
     const auto& vertices = surface.vertices(block);
-    fruit_block[block] = std::any_of(vertices.begin(), vertices.end(),
+    const auto count = std::count_if(vertices.begin(), vertices.end(),
                                      [&](const SurfaceVertex& v) { return counts(v); });
+    fruit_points[block] = static_cast<int>(count);
   }
   return changed;
 }
@@ -128,7 +131,7 @@ std::vector<int> FruitMap::State::update_surface(int max_blocks) {
 std::vector<Patch> FruitMap::State::patches_around(const std::vector<int>& changed) const {
   const FruitTsdf& tsdf = surface.tsdf();
   std::vector<char> reached(tsdf.blocks().size(), 0);
-  const auto has_fruit = [&](int block) { return fruit_block[block] != 0; };
+  const auto has_fruit = [&](int block) { return fruit_points[block] != 0; };
   // A changed block may have lost its surface; its neighbours then still want another look.
   std::vector<int> starts;
   for (const int block : changed) {
@@ -151,16 +154,24 @@ std::vector<Patch> FruitMap::State::patches_around(const std::vector<int>& chang
       }
     }
     std::sort(patch.blocks.begin(), patch.blocks.end());
-    for (const int block : patch.blocks) {
-      for (const SurfaceVertex& vertex : surface.vertices(block)) {
-        if (!counts(vertex)) continue;
-        patch.surface.push_back(vertex.surface);
-        patch.vertex.push_back(&vertex);
-        patch.block.push_back(block);
-      }
-    }
+    for (const int block : patch.blocks) patch.points += fruit_points[block];
   }
   return patches;
+}
+
+void FruitMap::State::collect_surface(Patch& patch) const {
+  const auto count = static_cast<std::size_t>(patch.points);
+  patch.surface.reserve(count);
+  patch.vertex.reserve(count);
+  patch.block.reserve(count);
+  for (const int block : patch.blocks) {
+    for (const SurfaceVertex& vertex : surface.vertices(block)) {
+      if (!counts(vertex)) continue;
+      patch.surface.push_back(vertex.surface);
+      patch.vertex.push_back(&vertex);
+      patch.block.push_back(block);
+    }
+  }
 }
 
 /// Takes the points of pieces out that cannot be fruit.
@@ -353,19 +364,20 @@ std::vector<Patch> FruitMap::State::take_patches(const std::vector<int>& changed
     return std::make_tuple(a.known, a.since) < std::make_tuple(b.known, b.since);
   });
   std::size_t taken = 0;
-  std::size_t points = 0;
+  int points = 0;
   for (; taken < patches.size(); ++taken) {
     if (!patches[taken].known) continue;
     const bool is_first = points == 0;
-    points += patches[taken].surface.size();
-    if (!all && !is_first && points > static_cast<std::size_t>(options.update_points)) break;
+    points += patches[taken].points;
+    if (!all && !is_first && points > options.update_points) break;
   }
   std::vector<char> left(waits_since.size(), 0);
   for (std::size_t i = taken; i < patches.size(); ++i) {
     for (const int block : patches[i].blocks) left[block] = 1;
   }
   patches.resize(taken);
-  for (const Patch& patch : patches) {
+  for (Patch& patch : patches) {
+    collect_surface(patch);
     concerned.insert(concerned.end(), patch.blocks.begin(), patch.blocks.end());
   }
   // Where fruit is gone beside a patch that waits, that patch's fruit may have lost it: both wait.

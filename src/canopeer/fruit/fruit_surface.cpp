@@ -6,6 +6,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "canopeer/base/simd_vectors.h"
 #include "canopeer/fruit/voxel_key.h"
 
 namespace canopeer {
@@ -85,23 +86,24 @@ class CellCorners {
 };
 
 /// Gradient of the distance in the middle of a cell, times four: the difference along each axis.
-Vec3 gradient_of(const Four& low, const Four& high) {
-  const Four up = high - low;
-  const Four both = high + low;
+Vec3 gradient_of(const FourFloats& low, const FourFloats& high) {
+  const FourFloats up = high - low;
+  const FourFloats both = high + low;
   return {both[1] - both[0] + both[3] - both[2], both[2] - both[0] + both[3] - both[1],
           up[0] + up[1] + up[2] + up[3]};
 }
 
-static_assert(sizeof(TsdfLooks) == 2 * sizeof(Four) && kPixelLabels == 4, "two loads of four");
+static_assert(sizeof(TsdfLooks) == 2 * sizeof(FourFloats) && kPixelLabels == 4,
+              "two loads of four");
 
 void set_looks(const std::array<const TsdfLooks*, 8>& corners, SurfaceVertex& vertex) {
-  Four votes = all(0.0F);
-  Four color = all(0.0F);
+  FourFloats votes = FourFloats{};
+  FourFloats color = FourFloats{};
   float color_weight = 1e-6F;
   for (const TsdfLooks* looks : corners) {
-    votes += load_four(looks->votes.data());
+    votes += load_lanes<FourFloats>(looks->votes.data());
     const float weight = looks->color_weight;
-    color += weight * load_four(looks->color.data());  // the fourth is nothing
+    color += weight * load_lanes<FourFloats>(looks->color.data());  // the fourth is nothing
     color_weight += weight;
   }
   const float fruit = votes[1] + votes[2] + votes[3];
@@ -109,7 +111,7 @@ void set_looks(const std::array<const TsdfLooks*, 8>& corners, SurfaceVertex& ve
   int most = 1;
   for (int k = 2; k < kPixelLabels; ++k) most = votes[k] > votes[most] ? k : most;
   vertex.kind = static_cast<PixelLabel>(most);
-  const Four mean = color / color_weight + 0.5F;
+  const FourFloats mean = color / color_weight + 0.5F;
   const auto channel = [&](int k) {
     return static_cast<std::uint8_t>(std::clamp(mean[k], 0.0F, 255.0F));
   };
@@ -122,11 +124,12 @@ struct Crossings {
   float sum[3] = {};
   int count = 0;
   /// `from`, `to`: distances at the edges' ends. Edges come by where they begin, x fastest.
-  void add(int axis, const Four& from, const Four& to) {
+  void add(int axis, const FourFloats& from, const FourFloats& to) {
     const FourBits crossed = (from < 0.0F) ^ (to < 0.0F);
-    const unsigned set = bits(crossed);
-    const Four apart = from - to;
-    const Four where = crossed ? from / (crossed ? apart : all(1.0F)) : all(0.0F);
+    const unsigned set = lane_bits(crossed);
+    const FourFloats apart = from - to;
+    const FourFloats where =
+        crossed ? from / (crossed ? apart : all_lanes<FourFloats>(1.0F)) : FourFloats{};
     sum[axis] += where[0] + where[1] + where[2] + where[3];
     // The second and fourth edge lie high along the lower one of the other axes, the third and
     // fourth along the higher one.
@@ -138,11 +141,13 @@ struct Crossings {
 
 std::optional<SurfaceVertex> vertex_of(const Corners& corners, const VoxelIndex& cell,
                                        double voxel_m) {
-  const Four low = load_four(corners.distance_m.data());
-  const Four high = load_four(corners.distance_m.data() + 4);
+  const FourFloats low = load_lanes<FourFloats>(corners.distance_m.data());
+  const FourFloats high = load_lanes<FourFloats>(corners.distance_m.data() + 4);
   Crossings crossings;
-  crossings.add(0, Four{low[0], low[2], high[0], high[2]}, Four{low[1], low[3], high[1], high[3]});
-  crossings.add(1, Four{low[0], low[1], high[0], high[1]}, Four{low[2], low[3], high[2], high[3]});
+  crossings.add(0, FourFloats{low[0], low[2], high[0], high[2]},
+                FourFloats{low[1], low[3], high[1], high[3]});
+  crossings.add(1, FourFloats{low[0], low[1], high[0], high[1]},
+                FourFloats{low[2], low[3], high[2], high[3]});
   crossings.add(2, low, high);
   if (crossings.count == 0) return std::nullopt;
   const Vec3 gradient = gradient_of(low, high);
@@ -199,7 +204,7 @@ std::vector<int> FruitSurface::update(int max_blocks) {
   return remade;
 }
 
-/// Four cells around a voxel edge that the surface crosses make a quad.
+/// FourFloats cells around a voxel edge that the surface crosses make a quad.
 SurfaceMesh FruitSurface::mesh() const {
   SurfaceMesh mesh;
   std::unordered_map<std::uint64_t, std::uint32_t> at_cell;  // never iterated

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "canopeer/base/expected.h"
-#include "canopeer/fruit/four.h"
+#include "canopeer/fruit/frame_depths.h"
 #include "canopeer/geometry/voxel_ray.h"
 #include "canopeer/sensing/image.h"
 #include "canopeer/sensing/rgbd_frame.h"
@@ -86,20 +86,14 @@ class FruitTsdf {
   }
 
  private:
-  struct View;
   void allocate(const RgbdFrame& frame, const Image<std::uint8_t>& classes);
   int make_block(const VoxelIndex& index);
-  [[nodiscard]] bool in_sight(const Vec3& centre_camera, double reach_m, const View& view) const;
-  void fuse_block(Block& block, const View& view) const;
-  void fuse_cube(Block& block, const VoxelIndex& first, const View& view) const;
-  static void fuse_row(Block& block, std::size_t voxel, const FourBits& taken, const Four& away,
-                       const Four& weight, const View& view);
-  static void take_looks(TsdfLooks& looks, float weight, std::size_t pixel, const View& view);
 
   TsdfOptions options_;
   std::vector<std::unique_ptr<Block>> blocks_;
   std::unordered_map<std::uint64_t, int> number_of_;  // never iterated
   std::vector<int> seen_;
+  FrameDepths depths_;  // of the last frame
   int frames_ = 0;
 };
 
