@@ -101,6 +101,24 @@ TEST(SuperellipsoidCost, IsTheRobustRadialDistanceInStandardDeviations) {
   }
 }
 
+TEST(SuperellipsoidCost, HasTheSameBitsWithNarrowRegisters) {
+  Rng rng(14);
+  const Superellipsoid body = pepper(rng);
+  for (const int samples : {4, 32, 33, 200}) {
+    const auto points = seen_part(body, kTowards, -1.0, 0.004, rng, samples);
+    const SuperellipsoidCost wide(points, {}, body.centre(), body.T_world_body.linear());
+    const SuperellipsoidCost narrow(points, {}, body.centre(), body.T_world_body.linear(),
+                                    SimdLevel::scalar);
+    FitParameters p = parameters_of(body);
+    p[0] += 0.002;
+    p[9] = 0.1;
+    const NormalEquations a = wide.normal_equations(p);
+    const NormalEquations b = narrow.normal_equations(p);
+    EXPECT_EQ(a.products, b.products) << samples;
+    EXPECT_EQ(a.distances_m2, b.distances_m2) << samples;
+  }
+}
+
 TEST(SuperellipsoidCost, SumsItsNormalEquationsUpWithoutTheRowsInBetween) {
   Rng rng(12);
   for (const int samples : {5, 32, 150}) {  // less than a chunk, one, some and a rest

@@ -72,7 +72,11 @@ void FruitTsdf::add(const RgbdFrame& frame, const Image<std::uint8_t>& classes) 
   depths_.set(frame.depth, static_cast<float>(options_.max_range_m),
               static_cast<float>(options_.max_depth_step_m));
   const TsdfFusion fusion(frame, classes, depths_, options_);
-  for (const auto& block : blocks_) fusion.fuse(*block);
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    constexpr std::size_t kAhead = 8;
+    if (i + kAhead < blocks_.size()) __builtin_prefetch(blocks_[i + kAhead].get());
+    fusion.fuse(*blocks_[i]);
+  }
 }
 
 /// An empty block, made known to those around it.
@@ -143,7 +147,11 @@ void FruitTsdf::allocate(const RgbdFrame& frame, const Image<std::uint8_t>& clas
 
 std::vector<int> FruitTsdf::take_changed() {
   std::vector<int> numbers;
-  for (const auto& block : blocks_) {
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    constexpr std::size_t kAhead = 8;
+    if (i + kAhead < blocks_.size()) __builtin_prefetch(&blocks_[i + kAhead]->changed);
+    const auto& block = blocks_[i];
+    if (block->changed == 0) continue;
     for (int k = 0; k < 8; ++k) {
       if ((block->changed >> k & 1) == 0) continue;
       const int number = block->around[13 - (k & 1) - 3 * ((k >> 1) & 1) - 9 * (k >> 2)];

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <span>
 
+#include "canopeer/base/simd_level.h"
 #include "canopeer/fruit/shape_prior.h"
 #include "canopeer/geometry/superellipsoid.h"
 
@@ -27,17 +29,20 @@ struct NormalEquations {
 /// Of the reported spread: one stray point is not all.
 inline constexpr double kClippedDistanceM = 0.01;
 
+class ChunkedPoints;
+
 /// What a fit minimises, with its derivative: ½ |r|², r = a robust residual for every point, then
 /// those of the prior. Everything is in standard deviations, so ½ |r|² is minus the log posterior.
 class SuperellipsoidCost {
  public:
-  /// The points stay where they are while this lives. `centre_vote`: where the normals see the
-  /// centre.
+  /// `centre_vote`: where the normals see the centre. `level`: changes the speed only.
   SuperellipsoidCost(std::span<const SurfacePoint> surface, const ShapePrior& prior,
-                     const Vec3& centre_vote, const Eigen::Matrix3d& reference);
+                     const Vec3& centre_vote, const Eigen::Matrix3d& reference,
+                     SimdLevel level = best_simd_level());
+  ~SuperellipsoidCost();
 
   static constexpr int kPriorResiduals = 11;
-  [[nodiscard]] int points() const { return static_cast<int>(x_.size()); }
+  [[nodiscard]] int points() const;
   [[nodiscard]] int residuals() const { return points() + kPriorResiduals; }
 
   /// r of length residuals(); `jacobian` row-major residuals() × 11, null: not wanted.
@@ -47,16 +52,17 @@ class SuperellipsoidCost {
   [[nodiscard]] NormalEquations normal_equations(const FitParameters& p) const;
 
  private:
-  /// Calls take(first point, number of points, their rows) chunk by chunk.
-  template <bool kDerivatives, typename Take>
+  /// Calls take(number of points, their rows) chunk by chunk.
+  template <typename Take>
   void for_each_chunk(const FitParameters& p, const Take& take) const;
   void evaluate_prior(const FitParameters& p, double* r, double* jacobian) const;
 
-  Eigen::ArrayXd x_, y_, z_;  // points, world
+  std::unique_ptr<const ChunkedPoints> points_;  // world
   ShapePrior prior_;
   Vec3 centre_vote_;
   Eigen::Matrix3d reference_;
   double weight_;  // of one point: 1 / sd, less where points repeat each other
+  SimdLevel level_;
 };
 
 }  // namespace canopeer

@@ -46,9 +46,9 @@ constexpr std::uint8_t kBelow[8] = {0b00000001, 0b00000011, 0b00000101, 0b000011
 
 /// Two rows of voxels as the camera sees them.
 struct ProjectedRows {
-  Lanes z;          ///< depth of the voxel
-  Lanes per_depth;  ///< length of its ray for each metre of depth
-  Bits u, v;        ///< pixel that sees it, counted from the border around the image
+  Lanes z;                 ///< depth of the voxel
+  Lanes slope_u, slope_v;  ///< of its ray
+  Bits u, v;               ///< pixel that sees it, counted from the border around the image
 };
 
 /// `first`: camera frame, in front of the camera.
@@ -69,11 +69,10 @@ struct ProjectedRows {
   };
   ProjectedRows p;
   p.z = coordinate(2);
-  const Lanes slope_u = coordinate(0) / p.z;
-  const Lanes slope_v = coordinate(1) / p.z;
-  p.per_depth = root(1.0F + slope_u * slope_u + slope_v * slope_v);
-  p.u = pixel(c.fx * slope_u + c.cx, c.last_u);
-  p.v = pixel(c.fy * slope_v + c.cy, c.last_v);
+  p.slope_u = coordinate(0) / p.z;
+  p.slope_v = coordinate(1) / p.z;
+  p.u = pixel(c.fx * p.slope_u + c.cx, c.last_u);
+  p.v = pixel(c.fy * p.slope_v + c.cy, c.last_v);
   return p;
 }
 
@@ -133,7 +132,12 @@ struct ProjectedRows {
     const Lanes marked = {c.depths[pixel[0]], c.depths[pixel[1]], c.depths[pixel[2]],
                           c.depths[pixel[3]], c.depths[pixel[4]], c.depths[pixel[5]],
                           c.depths[pixel[6]], c.depths[pixel[7]]};
-    const Lanes away = ((marked < 0.0F ? -marked : marked) - p.z) * p.per_depth;
+    const Lanes farther = (marked < 0.0F ? -marked : marked) - p.z;
+    // Behind what is seen by depth alone, so more so along the ray.
+    if (lane_bits(farther >= -c.truncation) == 0) continue;
+    // The length of a ray for each metre of depth.
+    const Lanes per_depth = root(1.0F + p.slope_u * p.slope_u + p.slope_v * p.slope_v);
+    const Lanes away = farther * per_depth;
     // A marked pixel tells of free space only, one without depth of nothing.
     const Bits taken =
         (marked != 0.0F) & (away >= (marked < 0.0F ? all(c.truncation) : all(-c.truncation)));
