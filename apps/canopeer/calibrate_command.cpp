@@ -1,6 +1,8 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <string>
+#include <system_error>
 
 #include "canopeer/base/atomic_file.h"
 #include "canopeer/config/cost_table_file.h"
@@ -12,11 +14,25 @@
 #include "world_builder.h"
 
 namespace canopeer::app {
+namespace {
+
+// Measuring takes a while: a folder that cannot be had is said before.
+std::filesystem::path file_to_write(const std::string& given, const std::filesystem::path& data) {
+  if (given.empty()) return data / "compute_tables" / "this-machine.yaml";
+  const std::filesystem::path folder = std::filesystem::path(given).parent_path();
+  std::error_code code;
+  if (!folder.empty()) std::filesystem::create_directories(folder, code);
+  if (code) stop_with(kFailed, {folder.string() + ": cannot be made: " + code.message()});
+  return given;
+}
+
+}  // namespace
 
 /// Measures this machine's compute table and writes it where runs find it by the name
 /// `this-machine`.
 void calibrate(const CalibrateArguments& arguments) {
   const std::filesystem::path data = CANOPEER_DATA_DIR;
+  const std::filesystem::path out = file_to_write(arguments.out, data);
   MissionArguments mission = arguments.mission;
   if (mission.path.empty()) mission.path = (data / "missions" / "smoke.yaml").string();
   const MissionFile file = load(mission);
@@ -37,9 +53,6 @@ void calibrate(const CalibrateArguments& arguments) {
   const std::string text = cost_table_text(
       costs, std::string("Measured by canopeer calibrate on ") + day + ", canopeer " +
                  CANOPEER_VERSION + "; CPU seconds of one core, the best of three.");
-  const std::filesystem::path out = arguments.out.empty()
-                                        ? data / "compute_tables" / "this-machine.yaml"
-                                        : std::filesystem::path(arguments.out);
   value_or_stop(write_file(out, text), kFailed);
   if (!arguments.quiet) {
     std::printf("%swritten to %s; use it with --compute-table %s\n", text.c_str(), out.c_str(),
