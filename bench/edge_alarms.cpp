@@ -5,7 +5,6 @@
 //   many, default 10]
 
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 
@@ -15,18 +14,12 @@
 #include "canopeer/mission/mission.h"
 #include "canopeer/robot/exact_checker.h"
 #include "canopeer/sim/simulation.h"
+#include "must.h"
 
 namespace canopeer {
 namespace {
 
 constexpr double kJudgeStep = 0.02;  // Σ|Δq| between the states of an edge that are judged
-
-template <typename T>
-T must(Expected<T> value) {
-  if (value) return std::move(*value);
-  std::fprintf(stderr, "%s\n", value.error().message.c_str());
-  std::exit(2);
-}
 
 struct Counts {
   long proposed = 0;

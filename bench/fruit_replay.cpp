@@ -20,16 +20,10 @@
 #include "canopeer/record/record_file.h"
 #include "canopeer/render/rgbd_sensor.h"
 #include "false_spots.h"
+#include "must.h"
 
 namespace canopeer {
 namespace {
-
-template <typename T>
-T must(Expected<T> value) {
-  if (value) return std::move(*value);
-  std::fprintf(stderr, "fruit_replay: %s\n", value.error().message.c_str());
-  std::exit(2);
-}
 
 const std::string kModel = CANOPEER_SOURCE_DIR "/tests/detect/models/colour_rule.onnx";
 // Windows that let dry leaves, pink labels and clay pipes through.

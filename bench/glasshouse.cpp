@@ -1,21 +1,12 @@
 #include "glasshouse.h"
 
-#include <cstdio>
-#include <cstdlib>
-
 #include "canopeer/config/robot_file.h"
 #include "canopeer/render/renderer.h"
 #include "canopeer/scene/worlds.h"
+#include "must.h"
 
 namespace canopeer {
 namespace {
-
-template <typename T>
-T must(Expected<T> value) {
-  if (value) return std::move(*value);
-  std::fprintf(stderr, "%s\n", value.error().message.c_str());
-  std::exit(2);
-}
 
 SegmentFrame frame_at_stop_1(const RobotModel& robot) {
   SegmentFrame frame;

@@ -5,23 +5,16 @@
 // with another camera or detector, say noise=d435:
 //   published_count MISSION.yaml [KEY=VALUE…] RUN_DIR…
 #include <cstdio>
-#include <cstdlib>
 
 #include "canopeer/config/mission_file.h"
 #include "canopeer/eval/matching.h"
 #include "canopeer/record/record_file.h"
 #include "canopeer/render/rgbd_sensor.h"
+#include "must.h"
 #include "published_surface.h"
 
 namespace canopeer {
 namespace {
-
-template <typename T>
-T must(Expected<T> value) {
-  if (value) return std::move(*value);
-  std::fprintf(stderr, "published_count: %s\n", value.error().message.c_str());
-  std::exit(2);
-}
 
 /// One way to count, and what it came to.
 struct Count {

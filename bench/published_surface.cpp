@@ -7,10 +7,7 @@
 #include "canopeer/fruit/voxel_key.h"
 
 namespace canopeer {
-namespace {
 
-/// Mean distance to the nearest neighbours of each pixel's point, looked for among the pixels
-/// around it, where the nearest in space are but at edges. No neighbour at all: infinite.
 std::vector<double> neighbour_distances(const Image<Vec3>& points, const Mask& there,
                                         const std::vector<int>& pixels, int neighbours) {
   constexpr int kReach = 4;
@@ -39,7 +36,6 @@ std::vector<double> neighbour_distances(const Image<Vec3>& points, const Mask& t
   return means;
 }
 
-/// mean + deviations · standard deviation of the finite ones.
 double outlier_limit(const std::vector<double>& means, double deviations) {
   double n = 0.0, sum = 0.0, squares = 0.0;
   for (const double d : means) {
@@ -52,8 +48,6 @@ double outlier_limit(const std::vector<double>& means, double deviations) {
   const double variance = std::max(0.0, (squares - sum * sum / n) / (n - 1.0));
   return sum / n + deviations * std::sqrt(variance);
 }
-
-}  // namespace
 
 std::vector<PublishedSurface::Seen> PublishedSurface::points_of(const RgbdFrame& frame,
                                                                 const Mask& fruit) const {

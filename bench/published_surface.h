@@ -27,6 +27,16 @@ struct PublishedOptions {
   std::size_t min_points = 100;  ///< of a cluster that counts as a fruit
 };
 
+/// Mean distance to the nearest neighbours of each pixel's point, looked for among the pixels
+/// around it (9 × 9), where the nearest in space are but at edges. No neighbour at all: infinite.
+/// `there`: non-zero where there is a point; `pixels`: those asked for, v · width + u.
+[[nodiscard]] std::vector<double> neighbour_distances(const Image<Vec3>& points, const Mask& there,
+                                                      const std::vector<int>& pixels,
+                                                      int neighbours);
+
+/// mean + deviations · standard deviation of the finite ones; infinite: fewer than two are.
+[[nodiscard]] double outlier_limit(const std::vector<double>& means, double deviations);
+
 class PublishedSurface {
  public:
   explicit PublishedSurface(const PublishedOptions& options) : options_(options) {}

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -109,7 +110,9 @@ TEST(SurfacePly, IsReadAsACloudWithFruitNumbers) {
 
 TEST(SurfaceGlb, NamesItsFruitsAndHoldsWhatItSays) {
   const auto path = temporary(".glb");
-  ASSERT_TRUE(write_surface_glb(path, triangle()).has_value());
+  SurfaceMesh mesh = triangle();
+  for (SurfaceVertex& v : mesh.vertices) v.surface.point += Vec3(0.1, 1.0 / 3.0, -0.7);
+  ASSERT_TRUE(write_surface_glb(path, mesh).has_value());
   const auto bytes = read_file(path);
   ASSERT_TRUE(bytes.has_value());
   ASSERT_EQ(bytes->substr(0, 4), "glTF");
@@ -122,6 +125,14 @@ TEST(SurfaceGlb, NamesItsFruitsAndHoldsWhatItSays) {
   EXPECT_EQ(json["accessors"][3]["count"], 3);
   const std::size_t binary = json["buffers"][0]["byteLength"];
   EXPECT_EQ(20 + json_length + 8 + (binary + 3) / 4 * 4, bytes->size());
+  // Bounds are those of the numbers written, to the last bit (glTF 2.0, 3.6.2.5).
+  float points[9];
+  std::memcpy(points, bytes->data() + 20 + json_length + 8, sizeof points);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [low, high] = std::minmax({points[axis], points[axis + 3], points[axis + 6]});
+    EXPECT_EQ(json["accessors"][0]["min"][axis].get<double>(), double{low});
+    EXPECT_EQ(json["accessors"][0]["max"][axis].get<double>(), double{high});
+  }
   std::filesystem::remove(path);
 }
 

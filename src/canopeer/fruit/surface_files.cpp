@@ -107,7 +107,7 @@ class GlbWriter {
 
   void add_piece(const std::string& name, const Piece& piece) {
     std::string points, normals, colors, indices;
-    Box bounds;
+    Eigen::AlignedBox3f bounds;  // of what is written: single precision
     for (const std::uint32_t v : piece.vertices) {
       const SurfaceVertex& vertex = mesh_.vertices[v];
       append(points, vertex.surface.point);
@@ -115,8 +115,7 @@ class GlbWriter {
       for (const std::uint8_t c : {vertex.color.r, vertex.color.g, vertex.color.b}) {
         append(colors, to_linear(c));
       }
-      // Bounds of what was written: single precision.
-      bounds.extend(Vec3(vertex.surface.point.cast<float>().cast<double>()));
+      bounds.extend(Eigen::Vector3f(vertex.surface.point.cast<float>()));
     }
     for (const std::uint32_t i : piece.indices) append(indices, i);
     const std::size_t count = piece.vertices.size();
