@@ -73,7 +73,7 @@ void FruitTsdf::add(const RgbdFrame& frame, const Image<std::uint8_t>& classes) 
               static_cast<float>(options_.max_depth_step_m));
   const TsdfFusion fusion(frame, classes, depths_, options_);
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
-    constexpr std::size_t kAhead = 8;
+    constexpr std::size_t kAhead = 8;  // blocks lie apart: the next ones are fetched meanwhile
     if (i + kAhead < blocks_.size()) __builtin_prefetch(blocks_[i + kAhead].get());
     fusion.fuse(*blocks_[i]);
   }
@@ -148,7 +148,7 @@ void FruitTsdf::allocate(const RgbdFrame& frame, const Image<std::uint8_t>& clas
 std::vector<int> FruitTsdf::take_changed() {
   std::vector<int> numbers;
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
-    constexpr std::size_t kAhead = 8;
+    constexpr std::size_t kAhead = 8;  // blocks lie apart: the next ones are fetched meanwhile
     if (i + kAhead < blocks_.size()) __builtin_prefetch(&blocks_[i + kAhead]->changed);
     const auto& block = blocks_[i];
     if (block->changed == 0) continue;
