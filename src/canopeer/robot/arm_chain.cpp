@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "canopeer/base/check.h"
-#include "canopeer/robot/four_doubles.h"
+#include "canopeer/base/simd_vectors.h"
 #include "canopeer/robot/sin_cos.h"
 
 namespace canopeer {
@@ -120,30 +120,38 @@ void ArmChain::turn_any(std::size_t segment, const Eigen::Matrix4d& parent, doub
     if (segment.kind == Kind::kSwapAndTurn) {
       // A swap of axes and a turn about one of them, in one: two columns mix, one is copied.
       const double s = segment.turn_sign * sine;
-      const Column u = load_four(parent + segment.from[0]);
-      const Column v = load_four(parent + segment.from[1]);
-      store_four(own + segment.axis[0], (cosine * segment.sign[0]) * u + (s * segment.sign[1]) * v);
-      store_four(own + segment.axis[1], (cosine * segment.sign[1]) * v - (s * segment.sign[0]) * u);
-      store_four(own + segment.axis[2], segment.sign[2] * load_four(parent + segment.from[2]));
+      const Column u = load_lanes<FourDoubles>(parent + segment.from[0]);
+      const Column v = load_lanes<FourDoubles>(parent + segment.from[1]);
+      store_lanes<FourDoubles>((cosine * segment.sign[0]) * u + (s * segment.sign[1]) * v,
+                               own + segment.axis[0]);
+      store_lanes<FourDoubles>((cosine * segment.sign[1]) * v - (s * segment.sign[0]) * u,
+                               own + segment.axis[1]);
+      store_lanes<FourDoubles>(segment.sign[2] * load_lanes<FourDoubles>(parent + segment.from[2]),
+                               own + segment.axis[2]);
     } else if (segment.kind == Kind::kAny) {
       turn_any(i, parent_matrix, sine, cosine, T[i].matrix());
     } else {
       for (int k = 0; k < 3; ++k)
-        store_four(own + segment.axis[k], segment.sign[k] * load_four(parent + segment.from[k]));
+        store_lanes<FourDoubles>(
+            segment.sign[k] * load_lanes<FourDoubles>(parent + segment.from[k]),
+            own + segment.axis[k]);
     }
-    Column origin = load_four(parent + 12);
+    Column origin = load_lanes<FourDoubles>(parent + 12);
     if (segment.offset_axis == 3) {
-      origin += load_four(parent) * segment.offset[0] + load_four(parent + 4) * segment.offset[1] +
-                load_four(parent + 8) * segment.offset[2];
+      origin += load_lanes<FourDoubles>(parent) * segment.offset[0] +
+                load_lanes<FourDoubles>(parent + 4) * segment.offset[1] +
+                load_lanes<FourDoubles>(parent + 8) * segment.offset[2];
     } else if (segment.offset_axis >= 0) {
-      origin += load_four(parent + 4 * segment.offset_axis) * segment.offset[segment.offset_axis];
+      origin += load_lanes<FourDoubles>(parent + 4 * segment.offset_axis) *
+                segment.offset[segment.offset_axis];
     }
     if (segment.slides) {
-      origin += motions.q[segment.arm_joint] *
-                (load_four(own) * segment.along[0] + load_four(own + 4) * segment.along[1] +
-                 load_four(own + 8) * segment.along[2]);
+      origin +=
+          motions.q[segment.arm_joint] * (load_lanes<FourDoubles>(own) * segment.along[0] +
+                                          load_lanes<FourDoubles>(own + 4) * segment.along[1] +
+                                          load_lanes<FourDoubles>(own + 8) * segment.along[2]);
     }
-    store_four(own + 12, origin);
+    store_lanes<FourDoubles>(origin, own + 12);
   }
 }
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "canopeer/robot/four_doubles.h"
+#include "canopeer/base/simd_vectors.h"
 
 namespace canopeer {
 namespace {

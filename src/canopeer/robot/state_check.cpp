@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "canopeer/base/simd_vectors.h"
 #include "canopeer/map/distance_field.h"
 #include "canopeer/robot/collision_checker.h"
-#include "canopeer/robot/four_doubles.h"
 
 namespace canopeer {
 namespace {
@@ -24,8 +24,8 @@ using LaneMask = long long __attribute__((vector_size(32)));
 [[gnu::always_inline]] inline Lanes size_of(Lanes a) { return larger(a, -a); }
 
 [[gnu::always_inline]] inline Lanes apply(const double* pose, const Vec3& p) {
-  return load_four(pose) * p.x() + load_four(pose + 4) * p.y() + load_four(pose + 8) * p.z() +
-         load_four(pose + 12);
+  return load_lanes<FourDoubles>(pose) * p.x() + load_lanes<FourDoubles>(pose + 4) * p.y() +
+         load_lanes<FourDoubles>(pose + 8) * p.z() + load_lanes<FourDoubles>(pose + 12);
 }
 
 int steps_of_four(std::size_t count) {
@@ -134,9 +134,9 @@ bool CollisionChecker::pair_free(const Obstacle& obstacle, const ArmLink& arm_li
     const bool box = obstacle.moving < 0 && obstacle.shape.kind == ShapeKind::kBox;
     const auto& T = obstacle.T_shape_world.matrix();
     for (int first = 0; first < lanes; first += kLanes, apart2 += kLanes) {
-      const Lanes px = load_four(x + first);
-      const Lanes py = load_four(y + first);
-      const Lanes pz = load_four(z + first);
+      const Lanes px = load_lanes<FourDoubles>(x + first);
+      const Lanes py = load_lanes<FourDoubles>(y + first);
+      const Lanes pz = load_lanes<FourDoubles>(z + first);
       Lanes dx = px - c[0];
       Lanes dy = py - c[1];
       Lanes dz = pz - c[2];
@@ -147,7 +147,7 @@ bool CollisionChecker::pair_free(const Obstacle& obstacle, const ArmLink& arm_li
         dy = larger(size_of(px * T(1, 0) + py * T(1, 1) + pz * T(1, 2) + T(1, 3)) - half.y(), zero);
         dz = larger(size_of(px * T(2, 0) + py * T(2, 1) + pz * T(2, 2) + T(2, 3)) - half.z(), zero);
       }
-      const LaneMask near = dx * dx + dy * dy + dz * dz < load_four(apart2);
+      const LaneMask near = dx * dx + dy * dy + dz * dz < load_lanes<FourDoubles>(apart2);
       if ((near[0] | near[1] | near[2] | near[3]) == 0) continue;
       for (int lane = 0; lane < kLanes; ++lane) {
         if (near[lane] != 0 &&
