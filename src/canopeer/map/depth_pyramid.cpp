@@ -9,6 +9,8 @@ namespace {
 
 // Windows of 128 pixels: what spans more is so near that it is better looked at in parts.
 constexpr int kTop = 7;
+constexpr std::size_t kCoarseBeyond = 32;
+constexpr float kLeastCoarse = 0.01F;  // m
 
 // Level 1: the 2 × 2 pixels of each window; an odd row or column out pairs with itself.
 void halve(const DepthImage& depth, int wide, int high, const FrameKernels& kernels, float* out) {
@@ -72,6 +74,13 @@ DepthPyramid::DepthPyramid(const DepthImage& depth, const CameraIntrinsics& k,
   float least = 0.0F;  // of −depth
   for (std::size_t i = 0; i < level; ++i) least = std::min(least, bounds_[2 * i + 1]);
   flat_.largest = -least;
+  if (kernels.coarsen == nullptr) return;
+  const std::size_t pixels = depth.pixels().size();
+  coarse_.reset(new std::uint16_t[pixels + kCoarseBeyond]);
+  std::fill_n(&coarse_[pixels], kCoarseBeyond, std::uint16_t{0});
+  flat_.coarse_scale = 65535.0F / std::max(flat_.largest, kLeastCoarse);
+  kernels.coarsen(flat_.depth, pixels, flat_.coarse_scale, coarse_.get());
+  flat_.coarse_depth = coarse_.get();
 }
 
 }  // namespace canopeer

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "canopeer/map/frame_kernels.h"
@@ -25,6 +26,7 @@ class DepthPyramid {
  private:
   FlatPyramid flat_;
   std::unique_ptr<float[]> bounds_;
+  std::unique_ptr<std::uint16_t[]> coarse_;
 };
 
 }  // namespace canopeer

@@ -15,6 +15,7 @@ FreeInBlockKernel free_in_block_kernel(SimdLevel level);
 struct PyramidKernels {
   decltype(FrameKernels::halve) halve;
   decltype(FrameKernels::widen) widen;
+  decltype(FrameKernels::coarsen) coarsen;
   decltype(FrameKernels::classify) classify;
 };
 PyramidKernels pyramid_kernels(SimdLevel level);

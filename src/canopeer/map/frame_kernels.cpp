@@ -7,8 +7,9 @@ namespace {
 
 FrameKernels kernels_of(SimdLevel level) {
   const PyramidKernels pyramid = pyramid_kernels(level);
-  return {end_point_row_kernel(level), pyramid.halve, pyramid.widen, pyramid.classify,
-          free_in_block_kernel(level)};
+  return {
+      end_point_row_kernel(level), pyramid.halve, pyramid.widen, pyramid.coarsen, pyramid.classify,
+      free_in_block_kernel(level)};
 }
 
 }  // namespace

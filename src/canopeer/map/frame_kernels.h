@@ -49,6 +49,10 @@ struct FlatPyramid {
   std::int32_t wide = 0;        ///< windows a row
   std::int32_t level_size = 0;  ///< windows a level; level 1 starts at 0
   float largest = 0;            ///< depth of all
+  /// min(depth · coarse_scale, 65535) rounded down, row-major, 32 more at the end; nullptr: the
+  /// kernels want none.
+  const std::uint16_t* coarse_depth = nullptr;
+  float coarse_scale = 0;
 };
 
 /// Up to 64 cubes of one size, spanned by their voxels' centres; camera frame, m.
@@ -64,10 +68,21 @@ struct CubeLanes {
   float half = 0;  ///< half the depth they span
 };
 
-/// Bit i: cube i. The rest must be looked at voxel by voxel.
+/// Bit i: cube i. What is neither free nor not must be looked at voxel by voxel.
 struct CubeViews {
   std::uint64_t none_free = 0;
   std::uint64_t all_free = 0;
+  std::uint64_t apart = 0;  ///< wholly in front of the camera, clear of it
+};
+
+/// The pixels that the centres of a cube's voxels can fall on, as far as they are in the image:
+/// columns u0 … u1, rows v0 … v1.
+struct PixelRects {
+  using Lanes = std::array<std::int32_t, CubeLanes::kMax>;
+  alignas(64) Lanes u0;
+  alignas(64) Lanes v0;
+  alignas(64) Lanes u1;
+  alignas(64) Lanes v1;
 };
 
 /// How the centres of a block's voxels come into the camera frame, m.
@@ -78,13 +93,23 @@ struct BlockProjection {
   alignas(64) std::array<float, 16> x{};
   alignas(64) std::array<float, 16> y{};
   alignas(64) std::array<float, 16> z{};
+  float z_least = 0, z_most = 0;  ///< of z
 };
 
-/// The eight half blocks (4 × 4 × 4 voxels; x, y, z of the half from the lowest bit on) of a block,
-/// as far as they are decided.
-struct DecidedHalves {
-  unsigned none_free = 0;
-  unsigned all_free = 0;
+/// What is known of the eight half blocks (4 × 4 × 4 voxels; x, y, z of the half from the lowest
+/// bit on) of a block: cubes 8 · place … 8 · place + 7 of some.
+struct HalfBlocks {
+  const CubeViews& views;
+  const PixelRects& rects;
+  std::size_t place = 0;
+
+  [[nodiscard]] unsigned none_free() const { return bits(views.none_free); }
+  [[nodiscard]] unsigned all_free() const { return bits(views.all_free); }
+  [[nodiscard]] unsigned apart() const { return bits(views.apart); }
+  [[nodiscard]] unsigned undecided() const { return ~(none_free() | all_free()) & 0xFF; }
+  [[nodiscard]] unsigned bits(std::uint64_t of_all) const {
+    return static_cast<unsigned>(of_all >> (8 * place) & 0xFF);
+  }
 };
 
 /// What fusing a frame spends its time in, for one instruction set. None of them gathers: on many
@@ -97,12 +122,14 @@ struct FrameKernels {
   /// out[i] = least of upper and lower [i], [i + shift], for `count` items.
   void (*widen)(const float* upper, const float* lower, std::size_t shift, std::size_t count,
                 float* out);
+  /// out[i] = min(depth[i] · scale, 65535) rounded down. nullptr: free_in_block wants none.
+  void (*coarsen)(const float* depth, std::size_t count, float scale, std::uint16_t* out);
   /// Never wrong, not always decided.
-  CubeViews (*classify)(const FlatPyramid& pyramid, const CubeLanes& cubes);
+  CubeViews (*classify)(const FlatPyramid& pyramid, const CubeLanes& cubes, PixelRects& rects);
   /// The voxels whose centres are seen nearer than the depth at their pixel, of the block with the
   /// lowest voxel `corner`.
   VoxelMask (*free_in_block)(const FlatPyramid& pyramid, const BlockProjection& projection,
-                             const std::array<int, 3>& corner, const DecidedHalves& decided);
+                             const std::array<int, 3>& corner, const HalfBlocks& halves);
 };
 
 /// `level` must be one the machine has.

@@ -85,6 +85,9 @@ class Frustum {
       projection_.y[static_cast<std::size_t>(i)] = static_cast<float>(offset.y());
       projection_.z[static_cast<std::size_t>(i)] = static_cast<float>(offset.z());
     }
+    const auto [least, most] = std::minmax_element(projection_.z.begin(), projection_.z.end());
+    projection_.z_least = *least;
+    projection_.z_most = *most;
     projection_.resolution_m = resolution_m;
     for (int row = 0; row < 3; ++row) {
       for (int column = 0; column < 4; ++column) {
@@ -145,7 +148,8 @@ void Frustum::find(std::span<const VoxelIndex> chunks, FreeSpace& out) const {
   for (std::size_t i = 0; i < (chunks.size() + 7) / 8 * 8; ++i) {
     chunk_.place(in_camera(chunks[std::min(i, chunks.size() - 1)]), lanes, i);
   }
-  const CubeViews views = kernels_.classify(pyramid_, lanes);
+  PixelRects rects;
+  const CubeViews views = kernels_.classify(pyramid_, lanes, rects);
   for (std::size_t i = 0; i < chunks.size(); ++i) {
     if ((views.none_free >> i & 1) != 0) continue;
     if ((views.all_free >> i & 1) == 0) {
@@ -162,7 +166,8 @@ void Frustum::find(std::span<const VoxelIndex> chunks, FreeSpace& out) const {
 void Frustum::find_in_chunk(const VoxelIndex& corner, FreeSpace& out) const {
   CubeLanes lanes;
   blocks_.place(in_camera(corner), lanes, 0);
-  const CubeViews views = kernels_.classify(pyramid_, lanes);
+  PixelRects rects;
+  const CubeViews views = kernels_.classify(pyramid_, lanes, rects);
   const BlockKey chunk_key = block_key(corner);
   std::array<BlockKey, CubeLanes::kMax / 8> mixed;
   std::size_t count = 0;
@@ -187,14 +192,14 @@ void Frustum::find_in_blocks(std::span<const BlockKey> keys, FreeSpace& out) con
   for (std::size_t i = 0; i < keys.size(); ++i) {
     parts_.place(in_camera(block_origin(keys[i])), lanes, i * parts_.count);
   }
-  const CubeViews views = kernels_.classify(pyramid_, lanes);
+  PixelRects rects;
+  const CubeViews views = kernels_.classify(pyramid_, lanes, rects);
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    const DecidedHalves decided = {static_cast<unsigned>(views.none_free >> (8 * i) & 0xFF),
-                                   static_cast<unsigned>(views.all_free >> (8 * i) & 0xFF)};
-    if (decided.none_free == 0xFF) continue;
+    const HalfBlocks halves{views, rects, i};
+    if (halves.none_free() == 0xFF) continue;
     const VoxelIndex corner = block_origin(keys[i]);
-    const VoxelMask free = kernels_.free_in_block(pyramid_, projection_,
-                                                  {corner.x(), corner.y(), corner.z()}, decided);
+    const VoxelMask free =
+        kernels_.free_in_block(pyramid_, projection_, {corner.x(), corner.y(), corner.z()}, halves);
     if (free.full()) {
       out.whole.push_back(keys[i]);
     } else if (free.any()) {

@@ -5,13 +5,11 @@
 #include <cstring>
 
 #include "canopeer/map/frame_kernel_parts.h"
+#include "canopeer/map/free_voxel_parts.h"
 #include "canopeer/map/kernel_targets.h"
 
 namespace canopeer {
 namespace {
-
-constexpr int kHalf = kBlockSide / 2;
-constexpr std::size_t kHalfVoxels = 64;
 
 // Where the first voxels of each slice of a half block are, camera frame; four slices follow.
 struct HalfBlock {
@@ -113,93 +111,7 @@ CANOPEER_TARGET_AVX2 std::uint64_t nearer_avx2(const float* depth, const float* 
   return nearer;
 }
 
-CANOPEER_TARGET_AVX512 std::uint64_t project_avx512(const FlatPyramid& camera,
-                                                    const BlockProjection& offsets,
-                                                    const HalfBlock& half, const Projected& out) {
-  const __m512 zero = _mm512_setzero_ps();
-  const __m512 one = _mm512_set1_ps(1.0F);
-  const __m512 fx = _mm512_set1_ps(camera.fx), fy = _mm512_set1_ps(camera.fy);
-  const __m512 cx = _mm512_set1_ps(camera.cx), cy = _mm512_set1_ps(camera.cy);
-  const __m512 width = _mm512_set1_ps(static_cast<float>(camera.width));
-  const __m512 height = _mm512_set1_ps(static_cast<float>(camera.height));
-  const __m512i row = _mm512_set1_epi32(camera.width);
-  std::uint64_t seen = 0;
-  for (std::size_t slice = 0; slice < 4; ++slice) {
-    const __m512 depth =
-        _mm512_add_ps(_mm512_set1_ps(half.z[slice]), _mm512_load_ps(&offsets.z[0]));
-    const __mmask16 before = _mm512_cmp_ps_mask(depth, zero, _CMP_GT_OQ);
-    const __m512 inverse = _mm512_div_ps(one, _mm512_mask_blend_ps(before, one, depth));
-    const __m512 x = _mm512_add_ps(_mm512_set1_ps(half.x[slice]), _mm512_load_ps(&offsets.x[0]));
-    const __m512 y = _mm512_add_ps(_mm512_set1_ps(half.y[slice]), _mm512_load_ps(&offsets.y[0]));
-    const __m512 u = _mm512_add_ps(_mm512_mul_ps(_mm512_mul_ps(fx, x), inverse), cx);
-    const __m512 v = _mm512_add_ps(_mm512_mul_ps(_mm512_mul_ps(fy, y), inverse), cy);
-    const __mmask16 across = _mm512_mask_cmp_ps_mask(
-        _mm512_mask_cmp_ps_mask(before, u, zero, _CMP_GE_OQ), u, width, _CMP_LT_OQ);
-    const __mmask16 in_image = _mm512_mask_cmp_ps_mask(
-        _mm512_mask_cmp_ps_mask(across, v, zero, _CMP_GE_OQ), v, height, _CMP_LT_OQ);
-    const __m512i rows = _mm512_mullo_epi32(_mm512_maskz_cvttps_epi32(in_image, v), row);
-    _mm512_store_ps(out.depth + 16 * slice, depth);
-    _mm512_store_si512(out.pixel + 16 * slice,
-                       _mm512_add_epi32(rows, _mm512_maskz_cvttps_epi32(in_image, u)));
-    seen |= std::uint64_t{in_image} << (16 * slice);
-  }
-  return seen;
-}
-
-CANOPEER_TARGET_AVX512 std::uint64_t nearer_avx512(const float* depth, const float* surface) {
-  std::uint64_t nearer = 0;
-  for (std::size_t i = 0; i < kHalfVoxels; i += 16) {
-    const __mmask16 bits =
-        _mm512_cmp_ps_mask(_mm512_load_ps(depth + i), _mm512_load_ps(surface + i), _CMP_LT_OQ);
-    nearer |= std::uint64_t{bits} << i;
-  }
-  return nearer;
-}
-
 #endif
-
-// One by one, and no compiler makes it otherwise.
-#if defined(__GNUC__) && !defined(__clang__)
-[[gnu::noinline, gnu::optimize("no-tree-vectorize", "no-tree-slp-vectorize")]]
-#else
-[[gnu::noinline]]
-#endif
-void look_up(const float* depth, const std::int32_t* pixel, std::size_t count, float* surface) {
-  // As integers: a vector register written in part would wait for its other part.
-  for (std::size_t i = 0; i < count; i += 8) {
-    for (std::size_t k = 0; k < 8; ++k) {
-      std::uint32_t bits;
-      std::memcpy(&bits, depth + pixel[i + k], sizeof bits);
-      std::memcpy(surface + i + k, &bits, sizeof bits);
-    }
-  }
-}
-
-// The first centres of the block's half slices in the camera frame: x and y half; axis; slice.
-using FirstCentres = float[4][3][kBlockSide];
-
-CANOPEER_KERNEL_BODY void find_first_centres(const BlockProjection& projection,
-                                             const std::array<int, 3>& corner,
-                                             FirstCentres& first) {
-  using Slices = double __attribute__((vector_size(sizeof(double) * kBlockSide)));
-  using FloatSlices = float __attribute__((vector_size(sizeof(float) * kBlockSide)));
-  const auto centre = [&](std::size_t axis, int steps) {
-    return (corner[axis] + steps + 0.5) * projection.resolution_m;
-  };
-  Slices z = {0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5};
-  z = (z + static_cast<double>(corner[2])) * projection.resolution_m;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto& row = projection.rows[axis];
-    const Slices up = row[2] * z;
-    for (int column = 0; column < 4; ++column) {
-      const double x = centre(0, (column & 1) * kHalf);
-      const double y = centre(1, (column >> 1) * kHalf);
-      const double across = row[0] * x + row[1] * y;
-      const auto at = __builtin_convertvector(across + up + row[3], FloatSlices);
-      std::memcpy(first[column][axis], &at, sizeof at);
-    }
-  }
-}
 
 // The bits of the eight half blocks to where a block's mask has them.
 CANOPEER_KERNEL_BODY VoxelMask join_halves(const std::uint64_t* halves) {
@@ -223,7 +135,7 @@ CANOPEER_KERNEL_BODY VoxelMask join_halves(const std::uint64_t* halves) {
 CANOPEER_KERNEL_BODY VoxelMask free_in_block_body(const FlatPyramid& camera,
                                                   const BlockProjection& projection,
                                                   const std::array<int, 3>& corner,
-                                                  const DecidedHalves& decided, Project project,
+                                                  const HalfBlocks& halves, Project project,
                                                   Nearer nearer) {
   alignas(64) FirstCentres first;
   find_first_centres(projection, corner, first);
@@ -235,8 +147,8 @@ CANOPEER_KERNEL_BODY VoxelMask free_in_block_body(const FlatPyramid& camera,
   std::uint64_t seen[8];
   std::size_t count = 0;
   for (unsigned i = 0; i < 8; ++i) {
-    free[i] = (decided.all_free >> i & 1) != 0 ? ~std::uint64_t{0} : 0;
-    if (((decided.none_free | decided.all_free) >> i & 1) != 0) continue;
+    free[i] = (halves.all_free() >> i & 1) != 0 ? ~std::uint64_t{0} : 0;
+    if ((halves.undecided() >> i & 1) == 0) continue;
     const auto& at = first[i & 3];
     const unsigned slice = i >> 2 ? kHalf : 0;
     seen[count] = project(camera, projection, {at[0] + slice, at[1] + slice, at[2] + slice},
@@ -244,27 +156,44 @@ CANOPEER_KERNEL_BODY VoxelMask free_in_block_body(const FlatPyramid& camera,
     looked_at[count] = i;
     count += seen[count] != 0;
   }
-  look_up(camera.depth, pixel, count * kHalfVoxels, surface);
+  look_up_depths(camera.depth, pixel, count * kHalfVoxels, surface);
   for (std::size_t i = 0; i < count; ++i) {
     free[looked_at[i]] = nearer(depth + i * kHalfVoxels, surface + i * kHalfVoxels) & seen[i];
   }
   return join_halves(free);
 }
 
-#define CANOPEER_KERNELS(NAME, TARGET)                                                             \
-  TARGET VoxelMask free_in_block_##NAME(                                                           \
-      const FlatPyramid& camera, const BlockProjection& projection,                                \
-      const std::array<int, 3>& corner, const DecidedHalves& decided) {                            \
-    return free_in_block_body(camera, projection, corner, decided, project_##NAME, nearer_##NAME); \
+#define CANOPEER_KERNELS(NAME, TARGET)                                                            \
+  TARGET VoxelMask free_in_block_##NAME(                                                          \
+      const FlatPyramid& camera, const BlockProjection& projection,                               \
+      const std::array<int, 3>& corner, const HalfBlocks& halves) {                               \
+    return free_in_block_body(camera, projection, corner, halves, project_##NAME, nearer_##NAME); \
   }
 
 CANOPEER_KERNELS(scalar, )
 #if defined(__x86_64__)
 CANOPEER_KERNELS(avx2, CANOPEER_TARGET_AVX2)
-CANOPEER_KERNELS(avx512, CANOPEER_TARGET_AVX512)
 #endif
 
 }  // namespace
+
+// One by one, and no compiler makes it otherwise.
+#if defined(__GNUC__) && !defined(__clang__)
+[[gnu::noinline, gnu::optimize("no-tree-vectorize", "no-tree-slp-vectorize")]]
+#else
+[[gnu::noinline]]
+#endif
+void look_up_depths(const float* depth, const std::int32_t* pixel, std::size_t count,
+                    float* surface) {
+  // As integers: a vector register written in part would wait for its other part.
+  for (std::size_t i = 0; i < count; i += 8) {
+    for (std::size_t k = 0; k < 8; ++k) {
+      std::uint32_t bits;
+      std::memcpy(&bits, depth + pixel[i + k], sizeof bits);
+      std::memcpy(surface + i + k, &bits, sizeof bits);
+    }
+  }
+}
 
 FreeInBlockKernel free_in_block_kernel([[maybe_unused]] SimdLevel level) {
   return CANOPEER_AT_LEVEL(level, free_in_block);

@@ -37,6 +37,14 @@ CANOPEER_KERNEL_BODY void widen_body(const float* upper, const float* lower, std
   }
 }
 
+CANOPEER_TARGET_AVX512 void coarsen_avx512(const float* depth, std::size_t count, float scale,
+                                           std::uint16_t* __restrict out) {
+  for (std::size_t i = 0; i < count; ++i) {
+    out[i] =
+        static_cast<std::uint16_t>(static_cast<std::int32_t>(least(depth[i] * scale, 65535.0F)));
+  }
+}
+
 // Bytes that are 0 or 1 to bits.
 template <std::size_t kCount>
 CANOPEER_KERNEL_BODY std::uint64_t pack_bits(const std::uint8_t* flags) {
@@ -62,15 +70,33 @@ struct CubeWindows {
   alignas(64) Flags none{};      // nothing free, whatever the depths
   alignas(64) Flags may_none{};  // nothing free if it lies behind all depths
   alignas(64) Flags may_all{};   // all free if it lies before all depths
+  alignas(64) Flags apart{};     // clear of the camera
 };
 
 CANOPEER_KERNEL_BODY void find_windows(const FlatPyramid& pyramid, const CubeLanes& cubes,
-                                       CubeWindows& windows) {
+                                       CubeWindows& windows, PixelRects& rects) {
   const auto width = static_cast<float>(pyramid.width);
   const auto height = static_cast<float>(pyramid.height);
+  // The planes through the camera and the image's four sides: x − u/fx · z, for u at a side, has the
+  // sign of the side a point lies on, whatever its depth; and likewise y.
+  const float left = (0.0F - pyramid.cx) / pyramid.fx, right = (width - pyramid.cx) / pyramid.fx;
+  const float upper = (0.0F - pyramid.cy) / pyramid.fy, lower = (height - pyramid.cy) / pyramid.fy;
+  float to_left = kMargin, to_right = kMargin, to_upper = kMargin, to_lower = kMargin;
+  for (const auto& edge : cubes.edges) {
+    to_left += std::abs(edge[0] - left * edge[2]);
+    to_right += std::abs(edge[0] - right * edge[2]);
+    to_upper += std::abs(edge[1] - upper * edge[2]);
+    to_lower += std::abs(edge[1] - lower * edge[2]);
+  }
+  const float pixel_x = kPixels / pyramid.fx, pixel_y = kPixels / pyramid.fy;
   for (std::size_t i = 0; i < cubes.count; ++i) {
     const float z_low = cubes.z[i] - cubes.half, z_high = cubes.z[i] + cubes.half;
     const float margin = kMargin + kShare * most(z_high, 0.0F);
+    const float beside_x = pixel_x * most(z_high, 0.0F), beside_y = pixel_y * most(z_high, 0.0F);
+    const bool beside = (cubes.x[i] - left * cubes.z[i] < -to_left - beside_x) |
+                        (cubes.x[i] - right * cubes.z[i] > to_right + beside_x) |
+                        (cubes.y[i] - upper * cubes.z[i] < -to_upper - beside_y) |
+                        (cubes.y[i] - lower * cubes.z[i] > to_lower + beside_y);
     const bool behind = (z_high <= 0.0F) | (z_low >= pyramid.largest + margin);
     const bool apart = z_low >= kNearest;
     // x / z differs from the centre's by (dx − x/z · dz) / (z + dz), and likewise y / z.
@@ -106,12 +132,17 @@ CANOPEER_KERNEL_BODY void find_windows(const FlatPyramid& pyramid, const CubeLan
     const std::int32_t offset = (level - 1) * pyramid.level_size;
     const std::int32_t row0 = offset + (v0 >> 1) * pyramid.wide;
     const std::int32_t row1 = offset + most(v0 >> 1, (v1 - side + 2) >> 1) * pyramid.wide;
+    rects.u0[i] = u0;
+    rects.v0[i] = v0;
+    rects.u1[i] = u1;
+    rects.v1[i] = v1;
     windows.place[0][i] = 2 * (row0 + column0);
     windows.place[1][i] = 2 * (row0 + column1);
     windows.place[2][i] = 2 * (row1 + column0);
     windows.place[3][i] = 2 * (row1 + column1);
-    windows.none[i] = (behind | (apart & outside)) ? 1 : 0;
+    windows.none[i] = (behind | beside | (apart & outside)) ? 1 : 0;
     windows.may_none[i] = (apart & covered) ? 1 : 0;
+    windows.apart[i] = apart ? 1 : 0;
     windows.may_all[i] = (apart & inside & covered) ? 1 : 0;
   }
 }
@@ -139,9 +170,10 @@ CANOPEER_KERNEL_BODY void look_up(const FlatPyramid& pyramid, const CubeWindows&
   }
 }
 
-CANOPEER_KERNEL_BODY CubeViews classify_body(const FlatPyramid& pyramid, const CubeLanes& cubes) {
+CANOPEER_KERNEL_BODY CubeViews classify_body(const FlatPyramid& pyramid, const CubeLanes& cubes,
+                                             PixelRects& rects) {
   CubeWindows windows;
-  find_windows(pyramid, cubes, windows);
+  find_windows(pyramid, cubes, windows, rects);
   alignas(64) std::array<float, 2 * CubeLanes::kMax> bounds;
   look_up(pyramid, windows, cubes.count, bounds.data());
   alignas(64) CubeWindows::Flags none{}, all{};
@@ -156,27 +188,29 @@ CANOPEER_KERNEL_BODY CubeViews classify_body(const FlatPyramid& pyramid, const C
     all[i] = static_cast<std::uint8_t>((none[i] ^ 1) & windows.may_all[i] &
                                        static_cast<std::uint8_t>(before));
   }
-  return {pack_bits<CubeLanes::kMax>(none.data()), pack_bits<CubeLanes::kMax>(all.data())};
+  return {pack_bits<CubeLanes::kMax>(none.data()), pack_bits<CubeLanes::kMax>(all.data()),
+          pack_bits<CubeLanes::kMax>(windows.apart.data())};
 }
 
-#define CANOPEER_KERNELS(NAME, TARGET)                                                   \
-  TARGET void halve_##NAME(const float* upper, const float* lower, std::size_t count,    \
-                           float* out) {                                                 \
-    halve_body(upper, lower, count, out);                                                \
-  }                                                                                      \
-  TARGET void widen_##NAME(const float* upper, const float* lower, std::size_t shift,    \
-                           std::size_t count, float* out) {                              \
-    widen_body(upper, lower, shift, count, out);                                         \
-  }                                                                                      \
-  TARGET CubeViews classify_##NAME(const FlatPyramid& pyramid, const CubeLanes& cubes) { \
-    return classify_body(pyramid, cubes);                                                \
-  }                                                                                      \
-  constexpr PyramidKernels kPyramid_##NAME = {halve_##NAME, widen_##NAME, classify_##NAME};
+#define CANOPEER_KERNELS(NAME, TARGET, COARSEN)                                        \
+  TARGET void halve_##NAME(const float* upper, const float* lower, std::size_t count,  \
+                           float* out) {                                               \
+    halve_body(upper, lower, count, out);                                              \
+  }                                                                                    \
+  TARGET void widen_##NAME(const float* upper, const float* lower, std::size_t shift,  \
+                           std::size_t count, float* out) {                            \
+    widen_body(upper, lower, shift, count, out);                                       \
+  }                                                                                    \
+  TARGET CubeViews classify_##NAME(const FlatPyramid& pyramid, const CubeLanes& cubes, \
+                                   PixelRects& rects) {                                \
+    return classify_body(pyramid, cubes, rects);                                       \
+  }                                                                                    \
+  constexpr PyramidKernels kPyramid_##NAME = {halve_##NAME, widen_##NAME, COARSEN, classify_##NAME};
 
-CANOPEER_KERNELS(scalar, )
+CANOPEER_KERNELS(scalar, , nullptr)
 #if defined(__x86_64__)
-CANOPEER_KERNELS(avx2, CANOPEER_TARGET_AVX2)
-CANOPEER_KERNELS(avx512, CANOPEER_TARGET_AVX512)
+CANOPEER_KERNELS(avx2, CANOPEER_TARGET_AVX2, nullptr)
+CANOPEER_KERNELS(avx512, CANOPEER_TARGET_AVX512, coarsen_avx512)
 #endif
 
 }  // namespace
