@@ -1,6 +1,9 @@
 #include "canopeer/map/depth_pyramid.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <new>
+#include <utility>
 
 #include "canopeer/base/check.h"
 
@@ -10,6 +13,8 @@ namespace {
 // Windows of 128 pixels: what spans more is so near that it is better looked at in parts.
 constexpr int kTop = 7;
 constexpr std::size_t kCoarseBeyond = 32;
+// What the thread's last pyramid lay in; the next one is as large, as a rule.
+thread_local HugeMemory last_memory;
 constexpr float kLeastCoarse = 0.01F;  // m
 
 // Level 1: the 2 × 2 pixels of each window; an odd row or column out pairs with itself.
@@ -53,12 +58,17 @@ DepthPyramid::DepthPyramid(const DepthImage& depth, const CameraIntrinsics& k,
   const int high = (depth.height() + 1) / 2;
   const std::size_t level = static_cast<std::size_t>(wide) * static_cast<std::size_t>(high);
   CANOPEER_CHECK(2 * level * kTop < (std::size_t{1} << 31), "the depth image is too large");
-  bounds_.reset(new float[2 * level * kTop]);  // each is written below
-  halve(depth, wide, high, kernels, bounds_.get());
+  const std::size_t pixels = depth.pixels().size();
+  const std::size_t bounds_bytes = 2 * level * kTop * sizeof(float);
+  const std::size_t bytes = bounds_bytes + (pixels + kCoarseBeyond) * sizeof(std::uint16_t);
+  memory_ = std::move(last_memory);
+  if (memory_.bytes() < bytes) memory_ = HugeMemory(bytes);
+  auto* bounds = new (memory_.data()) float[2 * level * kTop];  // each is written below
+  halve(depth, wide, high, kernels, bounds);
   for (int l = 1; l < kTop; ++l) {
     const std::size_t below = 2 * static_cast<std::size_t>(l - 1) * level;
     const int shift = 1 << (l - 1);  // half a window, in windows
-    widen(&bounds_[below], wide, high, shift, kernels, &bounds_[below + 2 * level]);
+    widen(&bounds[below], wide, high, shift, kernels, &bounds[below + 2 * level]);
   }
   flat_.width = depth.width();
   flat_.height = depth.height();
@@ -67,20 +77,21 @@ DepthPyramid::DepthPyramid(const DepthImage& depth, const CameraIntrinsics& k,
   flat_.cx = static_cast<float>(k.cx);
   flat_.cy = static_cast<float>(k.cy);
   flat_.depth = depth.pixels().data();
-  flat_.bounds = bounds_.get();
+  flat_.bounds = bounds;
   flat_.top = kTop;
   flat_.wide = wide;
   flat_.level_size = static_cast<std::int32_t>(level);
   float least = 0.0F;  // of −depth
-  for (std::size_t i = 0; i < level; ++i) least = std::min(least, bounds_[2 * i + 1]);
+  for (std::size_t i = 0; i < level; ++i) least = std::min(least, bounds[2 * i + 1]);
   flat_.largest = -least;
   if (kernels.coarsen == nullptr) return;
-  const std::size_t pixels = depth.pixels().size();
-  coarse_.reset(new std::uint16_t[pixels + kCoarseBeyond]);
-  std::fill_n(&coarse_[pixels], kCoarseBeyond, std::uint16_t{0});
+  auto* coarse = new (memory_.data() + bounds_bytes) std::uint16_t[pixels + kCoarseBeyond];
+  std::fill_n(&coarse[pixels], kCoarseBeyond, std::uint16_t{0});
   flat_.coarse_scale = 65535.0F / std::max(flat_.largest, kLeastCoarse);
-  kernels.coarsen(flat_.depth, pixels, flat_.coarse_scale, coarse_.get());
-  flat_.coarse_depth = coarse_.get();
+  kernels.coarsen(flat_.depth, pixels, flat_.coarse_scale, coarse);
+  flat_.coarse_depth = coarse;
 }
+
+DepthPyramid::~DepthPyramid() { last_memory = std::move(memory_); }
 
 }  // namespace canopeer

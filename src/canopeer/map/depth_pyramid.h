@@ -1,9 +1,7 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
-
 #include "canopeer/map/frame_kernels.h"
+#include "canopeer/map/huge_memory.h"
 #include "canopeer/sensing/camera_intrinsics.h"
 #include "canopeer/sensing/image.h"
 
@@ -17,6 +15,7 @@ class DepthPyramid {
   /// `depth` must have the size `k` says and at least one pixel, hold no NaN, and outlive the
   /// pyramid.
   DepthPyramid(const DepthImage& depth, const CameraIntrinsics& k, const FrameKernels& kernels);
+  ~DepthPyramid();
   DepthPyramid(const DepthPyramid&) = delete;
   DepthPyramid& operator=(const DepthPyramid&) = delete;
 
@@ -25,8 +24,7 @@ class DepthPyramid {
 
  private:
   FlatPyramid flat_;
-  std::unique_ptr<float[]> bounds_;
-  std::unique_ptr<std::uint16_t[]> coarse_;
+  HugeMemory memory_;  // of bounds and coarse depths
 };
 
 }  // namespace canopeer

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "canopeer/map/page_pool.h"
+
 namespace canopeer {
 
 /// An array in pages that its copies share: a copy costs a pointer a page, and whoever writes to a
@@ -47,6 +49,14 @@ class PagedArray {
   struct Page {
     std::atomic<std::uint32_t> owners{1};
     std::array<T, kPageItems> items;
+
+    static void* operator new(std::size_t) { return pool().take(); }
+    static void operator delete(void* page) { pool().give_back(page); }
+    // Never destroyed: arrays of static storage duration may be the last to go.
+    static PagePool& pool() {
+      static PagePool& pages = *new PagePool(sizeof(Page));
+      return pages;
+    }
   };
 
   class Handle {
