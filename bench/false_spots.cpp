@@ -1,7 +1,7 @@
 #include "false_spots.h"
 
 #include "canopeer/base/rng.h"
-#include "canopeer/geometry/voxel_ray.h"
+#include "canopeer/fruit/voxel_key.h"
 
 namespace canopeer {
 namespace {
@@ -9,11 +9,6 @@ namespace {
 constexpr int kSpots = 160;
 constexpr double kCell_m = 0.1;
 constexpr double kFruitReach_m = 0.06;
-
-std::uint64_t key_of(const VoxelIndex& cell) {
-  const auto part = [](int i) { return static_cast<std::uint64_t>(i + (1 << 20)) & 0x1FFFFFU; };
-  return part(cell.x()) << 42U | part(cell.y()) << 21U | part(cell.z());
-}
 
 /// A random point of a random part.
 Vec3 point_on(const std::vector<const ScenePart*>& parts, Rng& rng) {
@@ -52,7 +47,7 @@ void FalseSpots::add(const Spot& spot) {
   const VoxelIndex high = voxel_at(Vec3(spot.centre + reach), kCell_m);
   for (int x = low.x(); x <= high.x(); ++x) {
     for (int y = low.y(); y <= high.y(); ++y) {
-      for (int z = low.z(); z <= high.z(); ++z) near_[key_of({x, y, z})].push_back(number);
+      for (int z = low.z(); z <= high.z(); ++z) near_[voxel_key({x, y, z})].push_back(number);
     }
   }
 }
@@ -69,7 +64,7 @@ void FalseSpots::apply(const RgbdFrame& truth, std::uint64_t frame_number, Mask&
       const double z = truth.depth.at(u, v);
       if (!(z > 0.0) || z > 2.0) continue;
       const Vec3 p = truth.T_world_camera * Vec3(z * truth.intrinsics.ray(u, v));
-      const auto here = near_.find(key_of(voxel_at(p, kCell_m)));
+      const auto here = near_.find(voxel_key(voxel_at(p, kCell_m)));
       if (here == near_.end()) continue;
       const bool is_fruit = truth.labels.at(u, v) != PixelLabel::background;
       for (const int i : here->second) {

@@ -12,7 +12,7 @@ namespace canopeer {
 /// in two dimensions: Bender & Farach-Colton 2000, here at every second pixel.)
 class DepthPyramid {
  public:
-  /// `depth` must have the size `k` says and at least one pixel, hold no NaN, and outlive the
+  /// `depth` must have the size `k` says and at least one pixel, all finite, and outlive the
   /// pyramid.
   DepthPyramid(const DepthImage& depth, const CameraIntrinsics& k, const FrameKernels& kernels);
   ~DepthPyramid();

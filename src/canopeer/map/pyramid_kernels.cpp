@@ -77,8 +77,8 @@ CANOPEER_KERNEL_BODY void find_windows(const FlatPyramid& pyramid, const CubeLan
                                        CubeWindows& windows, PixelRects& rects) {
   const auto width = static_cast<float>(pyramid.width);
   const auto height = static_cast<float>(pyramid.height);
-  // The planes through the camera and the image's four sides: x − u/fx · z, for u at a side, has the
-  // sign of the side a point lies on, whatever its depth; and likewise y.
+  // The planes through the camera and the image's four sides: x − u/fx · z, for u at a side, has
+  // the sign of the side a point lies on, whatever its depth; and likewise y.
   const float left = (0.0F - pyramid.cx) / pyramid.fx, right = (width - pyramid.cx) / pyramid.fx;
   const float upper = (0.0F - pyramid.cy) / pyramid.fy, lower = (height - pyramid.cy) / pyramid.fy;
   float to_left = kMargin, to_right = kMargin, to_upper = kMargin, to_lower = kMargin;

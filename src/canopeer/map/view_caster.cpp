@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -93,7 +92,8 @@ void ViewCaster::cast_together(const Vec3& from, std::span<const Vec3> ends, dou
 }
 
 void ViewCaster::make_room(std::size_t voxels) {
-  const std::size_t steps = (voxels + 7) / 8 * 8, most_blocks = RayLanes::kCount * (voxels + 1);
+  const std::size_t steps = (voxels + 7) / 8 * 8;
+  const std::size_t most_blocks = RayLanes::kCount * (steps + 1);
   if (memory_.at.size() < steps) {
     memory_.at.resize(steps);
     memory_.offset.resize(steps / 4 + 1);
