@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -92,6 +93,59 @@ TEST(SimdKernels, RowsOfPixelsEndInTheSameVoxels) {
                   std::bit_cast<std::uint32_t>(vector.free_depth[u]))
             << simd_level_name(level) << " depth " << depth[u];
       }
+    }
+  }
+}
+
+TEST(SimdKernels, PixelsThatSayWhatTheirNeighboursSaidAreToldFromTheFirst) {
+  Rng rng(1, "first pixels");
+  for (int round = 0; round < 300; ++round) {
+    const std::size_t width = 1 + rng.index(150);
+    struct Row {
+      std::vector<std::int32_t> x, y, z, is_end, label;
+      PixelRowEnds ends() { return {nullptr, x.data(), y.data(), z.data(), is_end.data()}; }
+    };
+    const auto random_row = [&] {
+      Row row;
+      for (auto* ints : {&row.x, &row.y, &row.z}) {
+        for (std::size_t u = 0; u < width; ++u) ints->push_back(rng.chance(0.1) ? -1 : 0);
+      }
+      for (std::size_t u = 0; u < width; ++u) row.is_end.push_back(rng.chance(0.9));
+      return row;
+    };
+    Row above = random_row();
+    for (std::size_t u = 0; u < width; ++u) {
+      above.label.push_back(above.is_end[u] * (1 + static_cast<int>(rng.index(3))));
+    }
+    Row row = random_row();
+    row.label.resize(width);
+    std::vector<std::uint8_t> mask(width);
+    for (std::uint8_t& value : mask) value = static_cast<std::uint8_t>(rng.index(3));
+    LabelledRow labelled;
+    labelled.width = width;
+    labelled.ends = row.ends();
+    labelled.above = above.ends();
+    labelled.mask = rng.chance(0.3) ? nullptr : mask.data();
+    labelled.most = rng.chance(0.5) ? 1 : 255;
+    labelled.label = row.label.data();
+    labelled.label_above = above.label.data();
+
+    const auto what = [](const Row& of, std::size_t u) {
+      return std::array{of.label[u], of.x[u], of.y[u], of.z[u]};
+    };
+    for (const SimdLevel level : kSimdLevels) {
+      if (level > best_simd_level()) continue;
+      std::vector<std::uint64_t> first((width + 63) / 64, ~std::uint64_t{0});
+      frame_kernels(level).first_pixels(labelled, first.data());
+      for (std::size_t u = 0; u < width; ++u) {
+        const int value = labelled.mask == nullptr ? 0 : std::min(mask[u], labelled.most);
+        ASSERT_EQ(row.label[u], row.is_end[u] * (1 + value)) << simd_level_name(level);
+        const bool said =
+            what(row, u) == what(above, u) || (u > 0 && what(row, u) == what(row, u - 1));
+        ASSERT_EQ((first[u / 64] >> u % 64 & 1) != 0, row.is_end[u] != 0 && !said)
+            << simd_level_name(level) << " pixel " << u << " of " << width;
+      }
+      EXPECT_EQ(width % 64 == 0 ? 0 : first.back() >> width % 64, 0);
     }
   }
 }

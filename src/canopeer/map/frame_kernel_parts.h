@@ -9,6 +9,9 @@ namespace canopeer {
 using EndPointRowKernel = decltype(FrameKernels::end_point_row);
 EndPointRowKernel end_point_row_kernel(SimdLevel level);
 
+using FirstPixelsKernel = decltype(FrameKernels::first_pixels);
+FirstPixelsKernel first_pixels_kernel(SimdLevel level);
+
 using FreeInBlockKernel = decltype(FrameKernels::free_in_block);
 FreeInBlockKernel free_in_block_kernel(SimdLevel level);
 

@@ -7,9 +7,13 @@ namespace {
 
 FrameKernels kernels_of(SimdLevel level) {
   const PyramidKernels pyramid = pyramid_kernels(level);
-  return {
-      end_point_row_kernel(level), pyramid.halve, pyramid.widen, pyramid.coarsen, pyramid.classify,
-      free_in_block_kernel(level)};
+  return {end_point_row_kernel(level),
+          first_pixels_kernel(level),
+          pyramid.halve,
+          pyramid.widen,
+          pyramid.coarsen,
+          pyramid.classify,
+          free_in_block_kernel(level)};
 }
 
 }  // namespace

@@ -35,6 +35,16 @@ struct PixelRowEnds {
   std::int32_t* is_end = nullptr;  ///< 1: the pixel has an end point
 };
 
+/// A row of end points and the row above, and what tells pixels of one voxel apart.
+struct LabelledRow {
+  std::size_t width = 0;
+  PixelRowEnds ends, above;
+  const std::uint8_t* mask = nullptr;  ///< of the pixels; nullptr: none
+  std::uint8_t most = 1;               ///< mask values above count as this
+  std::int32_t* label = nullptr;       ///< to be written: 0 without end point, 1 + the mask's value
+  const std::int32_t* label_above = nullptr;
+};
+
 /// A pinhole camera in single precision, and the smallest and largest depths of windows of 2^l ×
 /// 2^l pixels (levels 1 … top) that start at every second pixel: `wide` windows a row, all levels
 /// in one array, `level_size` items apart. Any rectangle up to 2^(top + 1) − 2 pixels wide is
@@ -116,6 +126,9 @@ struct HalfBlocks {
 /// processors that is slower than loads one by one.
 struct FrameKernels {
   void (*end_point_row)(const PixelRow& row, const PixelRowEnds& ends);
+  /// Bit u % 64 of first[u / 64]: pixel u has an end point, and neither the pixel to the left nor
+  /// the one above ends in the same voxel with the same label.
+  void (*first_pixels)(const LabelledRow& row, std::uint64_t* first);
   /// out[2 i] and [2 i + 1] = least and −largest of upper and lower [2 i], [2 i + 1], for `count`
   /// windows.
   void (*halve)(const float* upper, const float* lower, std::size_t count, float* out);
