@@ -29,9 +29,8 @@ BlockSurroundings::BlockSurroundings(const VoxelMap& map, const std::vector<Bloc
     }
   }
   const auto row = static_cast<std::size_t>(size_.x());
-  spread(1);
-  spread(row);
-  spread(row * static_cast<std::size_t>(size_.y()));
+  const std::size_t layer = row * static_cast<std::size_t>(size_.y());
+  for (const std::size_t stride : {std::size_t{1}, row, layer}) spread_flags(stride, flags_);
 }
 
 std::size_t BlockSurroundings::cell(BlockKey key) const {
@@ -39,12 +38,12 @@ std::size_t BlockSurroundings::cell(BlockKey key) const {
   return static_cast<std::size_t>((b.z() * size_.y() + b.y()) * size_.x() + b.x());
 }
 
-// Gives each cell what its two neighbours at this stride hold. The outermost cells are no one's
-// centre, so what wraps around into them does not matter.
-void BlockSurroundings::spread(std::size_t stride) {
-  const std::vector<std::uint8_t> before = flags_;
-  for (std::size_t i = stride; i + stride < flags_.size(); ++i) {
-    flags_[i] = static_cast<std::uint8_t>(before[i] | before[i - stride] | before[i + stride]);
+void spread_flags(std::size_t stride, std::vector<std::uint8_t>& flags) {
+  const std::vector<std::uint8_t> copy = flags;
+  const std::uint8_t* before = copy.data();
+  std::uint8_t* now = flags.data();
+  for (std::size_t i = stride; i + stride < copy.size(); ++i) {
+    now[i] = static_cast<std::uint8_t>(before[i] | before[i - stride] | before[i + stride]);
   }
 }
 

@@ -25,11 +25,14 @@ class BlockSurroundings {
   static constexpr std::uint8_t kRoi = 2;
 
   [[nodiscard]] std::size_t cell(BlockKey key) const;
-  void spread(std::size_t stride);
 
   VoxelIndex first_;  // block; two beside those given
   VoxelIndex size_;   // blocks
   std::vector<std::uint8_t> flags_;
 };
+
+/// Flags of a grid of blocks: gives each what its two neighbours at this stride hold. The outermost
+/// hold anything afterwards.
+void spread_flags(std::size_t stride, std::vector<std::uint8_t>& flags);
 
 }  // namespace canopeer

@@ -56,17 +56,27 @@ void FrontierIndex::compute(const VoxelMap& map, const std::vector<BlockKey>& ke
 
 void FrontierIndex::update(const VoxelMap& map, const std::vector<BlockKey>& changed) {
   CANOPEER_CHECK(map.resolution_m() == resolution_m_, "map and index differ in resolution");
-  std::vector<std::uint8_t> stale(keys_.size(), 0);
+  if (keys_.empty()) return;
+  // With a block more on each side: changes beside the box count, too.
+  const VoxelIndex size = size_ + VoxelIndex::Constant(2);
+  const auto row = static_cast<std::size_t>(size.x());
+  const std::size_t layer = row * static_cast<std::size_t>(size.y());
+  std::vector<std::uint8_t> stale(layer * static_cast<std::size_t>(size.z()), 0);
   for (const BlockKey key : changed) {
-    const VoxelIndex block = block_index(key);
-    for (int i = 0; i < 27; ++i) {
-      const std::ptrdiff_t near = place(block + VoxelIndex(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
-      if (near >= 0) stale[static_cast<std::size_t>(near)] = 1;
-    }
+    const VoxelIndex at = block_index(key) - first_ + VoxelIndex::Ones();
+    if ((at.array() < 0).any() || (at.array() >= size.array()).any()) continue;
+    stale[at.z() * layer + at.y() * row + at.x()] = 1;
   }
+  for (const std::size_t stride : {std::size_t{1}, row, layer}) spread_flags(stride, stale);
   std::vector<BlockKey> keys;
-  for (std::size_t i = 0; i < keys_.size(); ++i) {
-    if (stale[i] != 0 && map.block(keys_[i]) != nullptr) keys.push_back(keys_[i]);
+  const BlockKey* key = keys_.data();
+  for (int z = 1; z <= size_.z(); ++z) {
+    for (int y = 1; y <= size_.y(); ++y) {
+      const std::uint8_t* flags = &stale[z * layer + y * row + 1];
+      for (int x = 0; x < size_.x(); ++x, ++key) {
+        if (flags[x] != 0 && map.block(*key) != nullptr) keys.push_back(*key);
+      }
+    }
   }
   compute(map, keys);
 }
