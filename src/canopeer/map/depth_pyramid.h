@@ -12,8 +12,8 @@ namespace canopeer {
 /// in two dimensions: Bender & Farach-Colton 2000, here at every second pixel.)
 class DepthPyramid {
  public:
-  /// `depth` must have the size `k` says and at least one pixel, all finite, and outlive the
-  /// pyramid.
+  /// `depth` must have the size `k` says and at least one pixel, all finite and none negative,
+  /// and outlive the pyramid.
   DepthPyramid(const DepthImage& depth, const CameraIntrinsics& k, const FrameKernels& kernels);
   ~DepthPyramid();
   DepthPyramid(const DepthPyramid&) = delete;

@@ -16,9 +16,9 @@ using FreeInBlockKernel = decltype(FrameKernels::free_in_block);
 FreeInBlockKernel free_in_block_kernel(SimdLevel level);
 
 struct PyramidKernels {
+  decltype(FrameKernels::coarsen) coarsen;
   decltype(FrameKernels::halve) halve;
   decltype(FrameKernels::widen) widen;
-  decltype(FrameKernels::coarsen) coarsen;
   decltype(FrameKernels::classify) classify;
 };
 PyramidKernels pyramid_kernels(SimdLevel level);

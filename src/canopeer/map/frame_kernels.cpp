@@ -9,9 +9,9 @@ FrameKernels kernels_of(SimdLevel level) {
   const PyramidKernels pyramid = pyramid_kernels(level);
   return {end_point_row_kernel(level),
           first_pixels_kernel(level),
+          pyramid.coarsen,
           pyramid.halve,
           pyramid.widen,
-          pyramid.coarsen,
           pyramid.classify,
           free_in_block_kernel(level)};
 }

@@ -53,16 +53,17 @@ struct FlatPyramid {
   int width = 0, height = 0;
   float fx = 0, fy = 0, cx = 0, cy = 0;
   const float* depth = nullptr;  ///< level 0, row-major
-  /// Two numbers a window, smallest and −largest: one look-up, and the least of both is wanted.
-  const float* bounds = nullptr;
+  float largest = 0;             ///< depth of all
+  /// min(depth · coarse_scale, 65535) rounded down, row-major, 32 more at the end. Rounding keeps
+  /// order: what differs in these differs likewise in depth.
+  const std::uint16_t* coarse_depth = nullptr;
+  float coarse_scale = 0;
+  /// Of coarse depths, two numbers a window, smallest and 65535 − largest: one look-up, and the
+  /// least of both is wanted.
+  const std::uint16_t* bounds = nullptr;
   int top = 1;
   std::int32_t wide = 0;        ///< windows a row
   std::int32_t level_size = 0;  ///< windows a level; level 1 starts at 0
-  float largest = 0;            ///< depth of all
-  /// min(depth · coarse_scale, 65535) rounded down, row-major, 32 more at the end; nullptr: the
-  /// kernels want none.
-  const std::uint16_t* coarse_depth = nullptr;
-  float coarse_scale = 0;
 };
 
 /// Up to 64 cubes of one size, spanned by their voxels' centres; camera frame, m.
@@ -93,6 +94,9 @@ struct PixelRects {
   alignas(64) Lanes v0;
   alignas(64) Lanes u1;
   alignas(64) Lanes v1;
+  /// The depths these voxels lie between, bounds that may be a little off the voxels.
+  alignas(64) std::array<float, CubeLanes::kMax> near;
+  alignas(64) std::array<float, CubeLanes::kMax> far;
 };
 
 /// How the centres of a block's voxels come into the camera frame, m.
@@ -129,14 +133,15 @@ struct FrameKernels {
   /// Bit u % 64 of first[u / 64]: pixel u has an end point, and neither the pixel to the left nor
   /// the one above ends in the same voxel with the same label.
   void (*first_pixels)(const LabelledRow& row, std::uint64_t* first);
-  /// out[2 i] and [2 i + 1] = least and −largest of upper and lower [2 i], [2 i + 1], for `count`
-  /// windows.
-  void (*halve)(const float* upper, const float* lower, std::size_t count, float* out);
-  /// out[i] = least of upper and lower [i], [i + shift], for `count` items.
-  void (*widen)(const float* upper, const float* lower, std::size_t shift, std::size_t count,
-                float* out);
-  /// out[i] = min(depth[i] · scale, 65535) rounded down. nullptr: free_in_block wants none.
+  /// out[i] = min(depth[i] · scale, 65535) rounded down; no depth is negative.
   void (*coarsen)(const float* depth, std::size_t count, float scale, std::uint16_t* out);
+  /// out[2 i] and [2 i + 1] = least and 65535 − largest of upper and lower [2 i], [2 i + 1], for
+  /// `count` windows.
+  void (*halve)(const std::uint16_t* upper, const std::uint16_t* lower, std::size_t count,
+                std::uint16_t* out);
+  /// out[i] = least of upper and lower [i], [i + shift], for `count` items.
+  void (*widen)(const std::uint16_t* upper, const std::uint16_t* lower, std::size_t shift,
+                std::size_t count, std::uint16_t* out);
   /// Never wrong, not always decided.
   CubeViews (*classify)(const FlatPyramid& pyramid, const CubeLanes& cubes, PixelRects& rects);
   /// The voxels whose centres are seen nearer than the depth at their pixel, of the block with the

@@ -113,6 +113,19 @@ CANOPEER_TARGET_AVX2 std::uint64_t nearer_avx2(const float* depth, const float* 
 
 #endif
 
+// surface[i] = depth[pixel[i]] for `count` pixels, a multiple of 8.
+CANOPEER_ONE_BY_ONE void look_up_depths(const float* depth, const std::int32_t* pixel,
+                                        std::size_t count, float* surface) {
+  // As integers: a vector register written in part would wait for its other part.
+  for (std::size_t i = 0; i < count; i += 8) {
+    for (std::size_t k = 0; k < 8; ++k) {
+      std::uint32_t bits;
+      std::memcpy(&bits, depth + pixel[i + k], sizeof bits);
+      std::memcpy(surface + i + k, &bits, sizeof bits);
+    }
+  }
+}
+
 // The bits of the eight half blocks to where a block's mask has them.
 CANOPEER_KERNEL_BODY VoxelMask join_halves(const std::uint64_t* halves) {
   alignas(64) static constexpr std::uint64_t kShift[8] = {0, 4, 32, 36, 0, 4, 32, 36};
@@ -176,24 +189,6 @@ CANOPEER_KERNELS(avx2, CANOPEER_TARGET_AVX2)
 #endif
 
 }  // namespace
-
-// One by one, and no compiler makes it otherwise.
-#if defined(__GNUC__) && !defined(__clang__)
-[[gnu::noinline, gnu::optimize("no-tree-vectorize", "no-tree-slp-vectorize")]]
-#else
-[[gnu::noinline]]
-#endif
-void look_up_depths(const float* depth, const std::int32_t* pixel, std::size_t count,
-                    float* surface) {
-  // As integers: a vector register written in part would wait for its other part.
-  for (std::size_t i = 0; i < count; i += 8) {
-    for (std::size_t k = 0; k < 8; ++k) {
-      std::uint32_t bits;
-      std::memcpy(&bits, depth + pixel[i + k], sizeof bits);
-      std::memcpy(surface + i + k, &bits, sizeof bits);
-    }
-  }
-}
 
 FreeInBlockKernel free_in_block_kernel([[maybe_unused]] SimdLevel level) {
   return CANOPEER_AT_LEVEL(level, free_in_block);

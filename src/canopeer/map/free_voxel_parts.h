@@ -6,6 +6,14 @@
 #include "canopeer/map/frame_kernels.h"
 #include "canopeer/map/kernel_targets.h"
 
+// Loads one by one: no compiler makes gathers or piecemeal vectors of them.
+#if defined(__GNUC__) && !defined(__clang__)
+#define CANOPEER_ONE_BY_ONE \
+  [[gnu::noinline, gnu::optimize("no-tree-vectorize", "no-tree-slp-vectorize")]]
+#else
+#define CANOPEER_ONE_BY_ONE [[gnu::noinline]]
+#endif
+
 namespace canopeer {
 
 // What the depth tests of single voxels have in common, whatever the instruction set.
@@ -38,10 +46,6 @@ CANOPEER_KERNEL_BODY void find_first_centres(const BlockProjection& projection,
     }
   }
 }
-
-// surface[i] = depth[pixel[i]] for `count` pixels, a multiple of 8.
-void look_up_depths(const float* depth, const std::int32_t* pixel, std::size_t count,
-                    float* surface);
 
 #if defined(__x86_64__)
 CANOPEER_TARGET_AVX512 VoxelMask free_in_block_avx512(const FlatPyramid& camera,

@@ -11,6 +11,12 @@
 namespace canopeer {
 namespace {
 
+constexpr float kMost = 65535.0F;  // coarse depth
+constexpr float kNearest = 0.05F;  // m; nearer cubes are not decided
+constexpr float kPixels = 0.25F;   // to spare, as voxels are projected in single precision
+constexpr float kMargin = 1e-5F;   // of depth, for the same reason: this + kShare · depth
+constexpr float kShare = 1e-6F;
+
 // Minimum and maximum as the vector instructions have them: no NaN comes here.
 template <typename T>
 CANOPEER_KERNEL_BODY T least(T a, T b) {
@@ -21,27 +27,28 @@ CANOPEER_KERNEL_BODY T most(T a, T b) {
   return a > b ? a : b;
 }
 
-CANOPEER_KERNEL_BODY void halve_body(const float* upper, const float* lower, std::size_t count,
-                                     float* __restrict out) {
+CANOPEER_KERNEL_BODY void coarsen_body(const float* depth, std::size_t count, float scale,
+                                       std::uint16_t* __restrict out) {
   for (std::size_t i = 0; i < count; ++i) {
-    const float a = upper[2 * i], b = upper[2 * i + 1], c = lower[2 * i], d = lower[2 * i + 1];
-    out[2 * i] = least(least(a, b), least(c, d));
-    out[2 * i + 1] = -most(most(a, b), most(c, d));
+    out[i] = static_cast<std::uint16_t>(static_cast<std::int32_t>(least(depth[i] * scale, kMost)));
   }
 }
 
-CANOPEER_KERNEL_BODY void widen_body(const float* upper, const float* lower, std::size_t shift,
-                                     std::size_t count, float* __restrict out) {
+CANOPEER_KERNEL_BODY void halve_body(const std::uint16_t* upper, const std::uint16_t* lower,
+                                     std::size_t count, std::uint16_t* __restrict out) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint16_t a = upper[2 * i], b = upper[2 * i + 1];
+    const std::uint16_t c = lower[2 * i], d = lower[2 * i + 1];
+    out[2 * i] = least(least(a, b), least(c, d));
+    out[2 * i + 1] = static_cast<std::uint16_t>(~most(most(a, b), most(c, d)));
+  }
+}
+
+CANOPEER_KERNEL_BODY void widen_body(const std::uint16_t* upper, const std::uint16_t* lower,
+                                     std::size_t shift, std::size_t count,
+                                     std::uint16_t* __restrict out) {
   for (std::size_t i = 0; i < count; ++i) {
     out[i] = least(least(upper[i], upper[i + shift]), least(lower[i], lower[i + shift]));
-  }
-}
-
-CANOPEER_TARGET_AVX512 void coarsen_avx512(const float* depth, std::size_t count, float scale,
-                                           std::uint16_t* __restrict out) {
-  for (std::size_t i = 0; i < count; ++i) {
-    out[i] =
-        static_cast<std::uint16_t>(static_cast<std::int32_t>(least(depth[i] * scale, 65535.0F)));
   }
 }
 
@@ -57,16 +64,14 @@ CANOPEER_KERNEL_BODY std::uint64_t pack_bits(const std::uint8_t* flags) {
   return bits;
 }
 
-constexpr float kNearest = 0.05F;  // m; nearer cubes are not decided
-constexpr float kPixels = 0.25F;   // to spare, as voxels are projected in single precision
-constexpr float kMargin = 1e-5F;   // of depth, for the same reason: this + kShare · depth
-constexpr float kShare = 1e-6F;
-
 // What is known of the cubes before any depth is looked up, and the four windows that cover each.
 struct CubeWindows {
   using Flags = std::array<std::uint8_t, CubeLanes::kMax>;
   using Places = std::array<std::int32_t, CubeLanes::kMax>;
+  using Depths = std::array<float, CubeLanes::kMax>;
   alignas(64) Places place[4];
+  alignas(64) Depths near;
+  alignas(64) Depths far;
   alignas(64) Flags none{};      // nothing free, whatever the depths
   alignas(64) Flags may_none{};  // nothing free if it lies behind all depths
   alignas(64) Flags may_all{};   // all free if it lies before all depths
@@ -136,6 +141,8 @@ CANOPEER_KERNEL_BODY void find_windows(const FlatPyramid& pyramid, const CubeLan
     rects.v0[i] = v0;
     rects.u1[i] = u1;
     rects.v1[i] = v1;
+    windows.near[i] = z_low - margin;
+    windows.far[i] = z_high + margin;
     windows.place[0][i] = 2 * (row0 + column0);
     windows.place[1][i] = 2 * (row0 + column1);
     windows.place[2][i] = 2 * (row1 + column0);
@@ -147,18 +154,19 @@ CANOPEER_KERNEL_BODY void find_windows(const FlatPyramid& pyramid, const CubeLan
   }
 }
 
-// bounds[2 i] and [2 i + 1]: smallest and −largest depth of cube i's windows.
+// bounds[2 i] and [2 i + 1]: smallest and 65535 − largest coarse depth of cube i's windows.
 CANOPEER_KERNEL_BODY void look_up(const FlatPyramid& pyramid, const CubeWindows& windows,
-                                  std::size_t count, float* bounds) {
+                                  std::size_t count, std::uint16_t* bounds) {
   for (std::size_t i = 0; i < count; ++i) {
 #if defined(__x86_64__)
     const auto window = [&](std::size_t w) {
-      return _mm_castsi128_ps(
-          _mm_loadl_epi64(reinterpret_cast<const __m128i*>(pyramid.bounds + windows.place[w][i])));
+      std::int32_t pair = 0;
+      __builtin_memcpy(&pair, pyramid.bounds + windows.place[w][i], sizeof pair);
+      return _mm_cvtsi32_si128(pair);
     };
-    const __m128 both =
-        _mm_min_ps(_mm_min_ps(window(0), window(1)), _mm_min_ps(window(2), window(3)));
-    _mm_storel_epi64(reinterpret_cast<__m128i*>(bounds + 2 * i), _mm_castps_si128(both));
+    const std::int32_t both = _mm_cvtsi128_si32(
+        _mm_min_epu16(_mm_min_epu16(window(0), window(1)), _mm_min_epu16(window(2), window(3))));
+    __builtin_memcpy(bounds + 2 * i, &both, sizeof both);
 #else
     for (std::size_t which = 0; which < 2; ++which) {
       const auto window = [&](std::size_t w) {
@@ -170,19 +178,22 @@ CANOPEER_KERNEL_BODY void look_up(const FlatPyramid& pyramid, const CubeWindows&
   }
 }
 
+// What depths were rounded down to bounds them from both sides; single precision's error in the
+// product is far less than the margin of depth.
 CANOPEER_KERNEL_BODY CubeViews classify_body(const FlatPyramid& pyramid, const CubeLanes& cubes,
                                              PixelRects& rects) {
   CubeWindows windows;
   find_windows(pyramid, cubes, windows, rects);
-  alignas(64) std::array<float, 2 * CubeLanes::kMax> bounds;
+  rects.near = windows.near;
+  rects.far = windows.far;
+  alignas(64) std::array<std::uint16_t, 2 * CubeLanes::kMax> bounds;
   look_up(pyramid, windows, cubes.count, bounds.data());
   alignas(64) CubeWindows::Flags none{}, all{};
   for (std::size_t i = 0; i < cubes.count; ++i) {
-    const float z_low = cubes.z[i] - cubes.half, z_high = cubes.z[i] + cubes.half;
-    const float margin = kMargin + kShare * most(z_high, 0.0F);
-    const float nearest = bounds[2 * i], farthest = -bounds[2 * i + 1];
-    const bool beyond = z_low > farthest + margin;
-    const bool before = z_high < nearest - margin;
+    const auto nearest = static_cast<float>(bounds[2 * i]);
+    const float farthest = kMost - static_cast<float>(bounds[2 * i + 1]);
+    const bool beyond = windows.near[i] * pyramid.coarse_scale > farthest + 1.0F;
+    const bool before = windows.far[i] * pyramid.coarse_scale < nearest;
     none[i] = static_cast<std::uint8_t>(windows.none[i] |
                                         (windows.may_none[i] & static_cast<std::uint8_t>(beyond)));
     all[i] = static_cast<std::uint8_t>((none[i] ^ 1) & windows.may_all[i] &
@@ -192,25 +203,30 @@ CANOPEER_KERNEL_BODY CubeViews classify_body(const FlatPyramid& pyramid, const C
           pack_bits<CubeLanes::kMax>(windows.apart.data())};
 }
 
-#define CANOPEER_KERNELS(NAME, TARGET, COARSEN)                                        \
-  TARGET void halve_##NAME(const float* upper, const float* lower, std::size_t count,  \
-                           float* out) {                                               \
-    halve_body(upper, lower, count, out);                                              \
-  }                                                                                    \
-  TARGET void widen_##NAME(const float* upper, const float* lower, std::size_t shift,  \
-                           std::size_t count, float* out) {                            \
-    widen_body(upper, lower, shift, count, out);                                       \
-  }                                                                                    \
-  TARGET CubeViews classify_##NAME(const FlatPyramid& pyramid, const CubeLanes& cubes, \
-                                   PixelRects& rects) {                                \
-    return classify_body(pyramid, cubes, rects);                                       \
-  }                                                                                    \
-  constexpr PyramidKernels kPyramid_##NAME = {halve_##NAME, widen_##NAME, COARSEN, classify_##NAME};
+#define CANOPEER_KERNELS(NAME, TARGET)                                                    \
+  TARGET void coarsen_##NAME(const float* depth, std::size_t count, float scale,          \
+                             std::uint16_t* out) {                                        \
+    coarsen_body(depth, count, scale, out);                                               \
+  }                                                                                       \
+  TARGET void halve_##NAME(const std::uint16_t* upper, const std::uint16_t* lower,        \
+                           std::size_t count, std::uint16_t* out) {                       \
+    halve_body(upper, lower, count, out);                                                 \
+  }                                                                                       \
+  TARGET void widen_##NAME(const std::uint16_t* upper, const std::uint16_t* lower,        \
+                           std::size_t shift, std::size_t count, std::uint16_t* out) {    \
+    widen_body(upper, lower, shift, count, out);                                          \
+  }                                                                                       \
+  TARGET CubeViews classify_##NAME(const FlatPyramid& pyramid, const CubeLanes& cubes,    \
+                                   PixelRects& rects) {                                   \
+    return classify_body(pyramid, cubes, rects);                                          \
+  }                                                                                       \
+  constexpr PyramidKernels kPyramid_##NAME = {coarsen_##NAME, halve_##NAME, widen_##NAME, \
+                                              classify_##NAME};
 
-CANOPEER_KERNELS(scalar, , nullptr)
+CANOPEER_KERNELS(scalar, )
 #if defined(__x86_64__)
-CANOPEER_KERNELS(avx2, CANOPEER_TARGET_AVX2, nullptr)
-CANOPEER_KERNELS(avx512, CANOPEER_TARGET_AVX512, coarsen_avx512)
+CANOPEER_KERNELS(avx2, CANOPEER_TARGET_AVX2)
+CANOPEER_KERNELS(avx512, CANOPEER_TARGET_AVX512)
 #endif
 
 }  // namespace
