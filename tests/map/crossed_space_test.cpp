@@ -70,12 +70,13 @@ void expect_same(std::uint64_t seed, const Case& c, double holes) {
   for (const SimdLevel level : kSimdLevels) {
     if (level > best_simd_level()) continue;
     const FrameKernels& kernels = frame_kernels(level);
-    const EndPoints ends = find_end_points(view.frame, view.roi, c.fusion, c.resolution_m, kernels);
+    EndPoints ends;
+    find_end_points(view.frame, view.roi, c.fusion, c.resolution_m, kernels, ends);
     const Blocks walked = walk_every_ray(view.frame, ends.free_depth, c.resolution_m);
-    const Blocks found =
-        as_blocks(find_crossed_space(view.frame, ends.free_depth, c.resolution_m, kernels));
-    EXPECT_TRUE(walked == found) << "seed " << seed << ", voxels of " << c.resolution_m << " m, "
-                                 << simd_level_name(level);
+    FreeSpace found;
+    find_crossed_space(view.frame, ends.free_depth, c.resolution_m, kernels, found);
+    EXPECT_TRUE(walked == as_blocks(found))
+        << "seed " << seed << ", voxels of " << c.resolution_m << " m, " << simd_level_name(level);
   }
 }
 
@@ -106,9 +107,11 @@ TEST(CrossedSpace, IsSoWhenEverythingLiesOnLattices) {
       frame.depth = DepthImage(64, 48, static_cast<float>(depth));
       for (int u = 20; u < 30; ++u) frame.depth.at(u, 24) = 0.2F;
       const FrameKernels& kernels = frame_kernels(best_simd_level());
-      const EndPoints ends = find_end_points(frame, {}, {}, resolution, kernels);
-      EXPECT_TRUE(walk_every_ray(frame, ends.free_depth, resolution) ==
-                  as_blocks(find_crossed_space(frame, ends.free_depth, resolution, kernels)))
+      EndPoints ends;
+      find_end_points(frame, {}, {}, resolution, kernels, ends);
+      FreeSpace found;
+      find_crossed_space(frame, ends.free_depth, resolution, kernels, found);
+      EXPECT_TRUE(walk_every_ray(frame, ends.free_depth, resolution) == as_blocks(found))
           << depth << " m, voxels of " << resolution << " m";
     }
   }

@@ -68,7 +68,8 @@ class Walker {
 // Free blocks to which rays add what they cross.
 class Crossed {
  public:
-  explicit Crossed(FreeSpace sure) : free_(std::move(sure)) {
+  // Adds to `sure`.
+  explicit Crossed(FreeSpace& sure) : free_(sure) {
     for (const BlockKey key : free_.whole) directory_.find_or_add(key);
     for (const FreeBlock& part : free_.parts) directory_.find_or_add(part.key);
   }
@@ -82,13 +83,12 @@ class Crossed {
   }
 
   // Blocks that became whole are said to be.
-  [[nodiscard]] FreeSpace take() {
+  void finish() {
     const auto whole =
         std::stable_partition(free_.parts.begin(), free_.parts.end(),
                               [](const FreeBlock& part) { return !part.free.full(); });
     for (auto part = whole; part != free_.parts.end(); ++part) free_.whole.push_back(part->key);
     free_.parts.erase(whole, free_.parts.end());
-    return std::move(free_);
   }
 
  private:
@@ -105,7 +105,7 @@ class Crossed {
     mask_ = &free_.parts[slot - whole].free;
   }
 
-  FreeSpace free_;
+  FreeSpace& free_;
   BlockDirectory directory_;  // whole blocks, then parts
   VoxelIndex block_ = VoxelIndex::Zero();
   VoxelMask* mask_ = nullptr;  // of the block the last voxel was in
@@ -114,11 +114,11 @@ class Crossed {
 
 }  // namespace
 
-FreeSpace find_crossed_space(const RgbdFrame& frame, const DepthImage& free_depth,
-                             double resolution_m, const FrameKernels& kernels) {
+void find_crossed_space(const RgbdFrame& frame, const DepthImage& free_depth, double resolution_m,
+                        const FrameKernels& kernels, FreeSpace& free) {
   const SureSpace sure = find_sure_space(free_depth, frame.intrinsics, resolution_m);
-  Crossed crossed(
-      find_free_space(sure.depth, frame.intrinsics, frame.T_world_camera, resolution_m, kernels));
+  find_free_space(sure.depth, frame.intrinsics, frame.T_world_camera, resolution_m, kernels, free);
+  Crossed crossed(free);
   const Vec3 origin = frame.T_world_camera.translation();
   const auto add = [&](const VoxelIndex& voxel) { crossed.add(voxel); };
   for (int v = 0; v < free_depth.height(); ++v) {
@@ -139,7 +139,7 @@ FreeSpace find_crossed_space(const RgbdFrame& frame, const DepthImage& free_dept
       walker.walk_until(VoxelWalk::kEnd, add);
     }
   }
-  return crossed.take();
+  crossed.finish();
 }
 
 }  // namespace canopeer

@@ -140,13 +140,18 @@ class RecentBlocks {
 
 }  // namespace
 
-EndPoints find_end_points(const RgbdFrame& frame, const Mask& roi, const FusionOptions& options,
-                          double resolution_m, const FrameKernels& kernels) {
+void find_end_points(const RgbdFrame& frame, const Mask& roi, const FusionOptions& options,
+                     double resolution_m, const FrameKernels& kernels, EndPoints& ends) {
   check(frame, roi, options, resolution_m);
   const CameraIntrinsics& k = frame.intrinsics;
   const bool graded = options.roi_is_confidence && !roi.empty();
-  EndPoints ends;
-  ends.free_depth = DepthImage(k.width, k.height);
+  ends.count = 0;
+  ends.directory = BlockDirectory();
+  ends.blocks.clear();
+  ends.confidences.clear();
+  if (ends.free_depth.width() != k.width || ends.free_depth.height() != k.height) {
+    ends.free_depth = DepthImage(k.width, k.height);
+  }
   RowProjection row(frame, roi, graded, options, resolution_m);
   BlockKey key = ~BlockKey{0};
   std::uint32_t slot = 0;
@@ -172,7 +177,6 @@ EndPoints find_end_points(const RgbdFrame& frame, const Mask& roi, const FusionO
       confidence = std::max(confidence, roi_row[u]);
     });
   }
-  return ends;
 }
 
 }  // namespace canopeer

@@ -30,7 +30,8 @@ struct EndPoints {
   DepthImage free_depth;
 };
 
-EndPoints find_end_points(const RgbdFrame& frame, const Mask& roi, const FusionOptions& options,
-                          double resolution_m, const FrameKernels& kernels);
+/// What `ends` held is forgotten, its memory used again.
+void find_end_points(const RgbdFrame& frame, const Mask& roi, const FusionOptions& options,
+                     double resolution_m, const FrameKernels& kernels, EndPoints& ends);
 
 }  // namespace canopeer

@@ -11,6 +11,7 @@
 
 #include "canopeer/map/block_directory.h"
 #include "canopeer/map/depth_pyramid.h"
+#include "canopeer/map/kept.h"
 
 namespace canopeer {
 namespace {
@@ -210,32 +211,30 @@ void Frustum::find_in_blocks(std::span<const BlockKey> keys, FreeSpace& out) con
 
 }  // namespace
 
-FreeSpace find_free_space(const DepthImage& free_depth, const CameraIntrinsics& intrinsics,
-                          const Pose& T_world_camera, double resolution_m,
-                          const FrameKernels& kernels) {
+void find_free_space(const DepthImage& free_depth, const CameraIntrinsics& intrinsics,
+                     const Pose& T_world_camera, double resolution_m, const FrameKernels& kernels,
+                     FreeSpace& free) {
   const DepthPyramid pyramid(free_depth, intrinsics, kernels);
   const Frustum frustum(pyramid.flat(), intrinsics, T_world_camera, resolution_m, kernels);
   const std::vector<VoxelIndex> chunks = frustum.chunks();
   constexpr std::size_t kBatch = 32;
-  std::vector<FreeSpace> found((chunks.size() + kBatch - 1) / kBatch);
-  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
+  const std::size_t batches = (chunks.size() + kBatch - 1) / kBatch;
+  Kept<std::vector<FreeSpace>> kept;
+  if (kept->size() < batches) kept->resize(batches);
+  const auto found = std::span(*kept).first(batches);
+  tbb::parallel_for(std::size_t{0}, batches, [&](std::size_t i) {
     const std::size_t first = i * kBatch;
     const std::size_t count = std::min(kBatch, chunks.size() - first);
+    found[i].whole.clear();
+    found[i].parts.clear();
     frustum.find(std::span(chunks).subspan(first, count), found[i]);
   });
-  FreeSpace all;
-  std::size_t whole = 0, parts = 0;
+  free.whole.clear();
+  free.parts.clear();
   for (const FreeSpace& part : found) {
-    whole += part.whole.size();
-    parts += part.parts.size();
+    free.whole.insert(free.whole.end(), part.whole.begin(), part.whole.end());
+    free.parts.insert(free.parts.end(), part.parts.begin(), part.parts.end());
   }
-  all.whole.reserve(whole);
-  all.parts.reserve(parts);
-  for (const FreeSpace& part : found) {
-    all.whole.insert(all.whole.end(), part.whole.begin(), part.whole.end());
-    all.parts.insert(all.parts.end(), part.parts.begin(), part.parts.end());
-  }
-  return all;
 }
 
 }  // namespace canopeer

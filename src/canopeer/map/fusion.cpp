@@ -9,6 +9,7 @@
 #include "canopeer/map/end_points.h"
 #include "canopeer/map/frame_kernels.h"
 #include "canopeer/map/free_space.h"
+#include "canopeer/map/kept.h"
 
 namespace canopeer {
 namespace {
@@ -17,12 +18,11 @@ namespace {
 // is a miss.
 class FrameUpdate {
  public:
-  FrameUpdate(const EndPoints& ends, FreeSpace free, bool segmented)
-      : ends_(ends),
-        segmented_(segmented),
-        free_(std::move(free)),
-        combined_(ends.blocks.size(), false) {
-    updates_.reserve(ends.blocks.size());
+  // Takes the blocks that hold end points out of `free`.
+  FrameUpdate(const EndPoints& ends, FreeSpace& free, bool segmented)
+      : ends_(ends), segmented_(segmented), free_(free), combined_(ends.blocks.size(), false) {
+    updates_->clear();
+    updates_->reserve(ends.blocks.size());
     const auto with_end_points = [this](BlockKey key, const VoxelMask& miss) {
       const std::uint32_t end = end_points_in(key);
       if (end == BlockDirectory::kFree) return false;
@@ -38,8 +38,8 @@ class FrameUpdate {
     }
   }
 
-  FuseResult apply(VoxelMap& map, SimdLevel simd) const {
-    UpdateResult update = map.apply(updates_, free_.whole, free_.parts, simd);
+  FuseResult apply(VoxelMap& map, SimdLevel simd) {
+    UpdateResult update = map.apply(*updates_, free_.whole, free_.parts, simd);
     return {ends_.count, update.newly_known, update.updated_voxels, std::move(update.changed)};
   }
 
@@ -57,7 +57,7 @@ class FrameUpdate {
   void add(std::uint32_t end, const VoxelMask& miss) {
     const EndPoints::Block& block = ends_.blocks[end];
     combined_[end] = true;
-    BlockUpdate& update = updates_.emplace_back();
+    BlockUpdate& update = updates_->emplace_back();
     update.key = block.key;
     update.hit = block.hit;
     update.miss = miss;
@@ -71,35 +71,41 @@ class FrameUpdate {
 
   const EndPoints& ends_;
   bool segmented_;
-  FreeSpace free_;  // without the blocks that hold end points
+  FreeSpace& free_;
   std::vector<bool> combined_;
-  std::vector<BlockUpdate> updates_;
+  Kept<std::vector<BlockUpdate>> updates_;
   BlockKey chunk_key_ = ~BlockKey{0};
   const BlockDirectory::Chunk* chunk_ = nullptr;
 };
 
-FuseResult apply(VoxelMap& map, const EndPoints& ends, FreeSpace free, bool segmented,
-                 SimdLevel simd) {
-  return FrameUpdate(ends, std::move(free), segmented).apply(map, simd);
+enum class Mode { projective, exact };
+
+FuseResult fuse_in(Mode mode, VoxelMap& map, const RgbdFrame& frame, const Mask& roi,
+                   const FusionOptions& options) {
+  const FrameKernels& kernels = frame_kernels(options.simd);
+  const double resolution_m = map.resolution_m();
+  Kept<EndPoints> ends;
+  Kept<FreeSpace> free;
+  find_end_points(frame, roi, options, resolution_m, kernels, *ends);
+  if (mode == Mode::projective) {
+    find_free_space(ends->free_depth, frame.intrinsics, frame.T_world_camera, resolution_m, kernels,
+                    *free);
+  } else {
+    find_crossed_space(frame, ends->free_depth, resolution_m, kernels, *free);
+  }
+  return FrameUpdate(*ends, *free, !roi.empty()).apply(map, options.simd);
 }
 
 }  // namespace
 
 FuseResult fuse(VoxelMap& map, const RgbdFrame& frame, const Mask& roi,
                 const FusionOptions& options) {
-  const FrameKernels& kernels = frame_kernels(options.simd);
-  const EndPoints ends = find_end_points(frame, roi, options, map.resolution_m(), kernels);
-  FreeSpace free = find_free_space(ends.free_depth, frame.intrinsics, frame.T_world_camera,
-                                   map.resolution_m(), kernels);
-  return apply(map, ends, std::move(free), !roi.empty(), options.simd);
+  return fuse_in(Mode::projective, map, frame, roi, options);
 }
 
 FuseResult fuse_exact(VoxelMap& map, const RgbdFrame& frame, const Mask& roi,
                       const FusionOptions& options) {
-  const FrameKernels& kernels = frame_kernels(options.simd);
-  const EndPoints ends = find_end_points(frame, roi, options, map.resolution_m(), kernels);
-  FreeSpace free = find_crossed_space(frame, ends.free_depth, map.resolution_m(), kernels);
-  return apply(map, ends, std::move(free), !roi.empty(), options.simd);
+  return fuse_in(Mode::exact, map, frame, roi, options);
 }
 
 }  // namespace canopeer

@@ -1,11 +1,17 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 
+#include "canopeer/map/kept.h"
 #include "canopeer/map/voxel_map.h"
 
 namespace canopeer {
 namespace {
+
+// Blocks looked at, and blocks whose log-odds are stepped, between a prefetch and its use.
+constexpr std::size_t kAhead = 8;
+constexpr std::size_t kAheadCells = 2;
 
 // Finds the chunks of blocks that come chunk by chunk.
 class Chunks {
@@ -24,6 +30,50 @@ class Chunks {
   BlockDirectory::Chunk* chunk_ = nullptr;
   BlockKey key_ = ~BlockKey{0};
 };
+
+// As ==, which would be a call.
+bool alike(const VoxelMask& a, const VoxelMask& b) {
+  std::uint64_t differ = 0;
+  for (std::size_t z = 0; z < kBlockSide; ++z) differ |= a.slices[z] ^ b.slices[z];
+  return differ == 0;
+}
+
+// Brings memory that is soon read and written near.
+template <typename T>
+void prefetch(const T& item) {
+  const auto* bytes = reinterpret_cast<const char*>(&item);
+  for (std::size_t i = 0; i < sizeof(T); i += 64) __builtin_prefetch(bytes + i, 1);
+}
+
+// Blocks of a frame lie close together: a bit each in the box around them, where there is room.
+void sort_keys(std::vector<BlockKey>& keys) {
+  if (keys.size() < 64) return std::sort(keys.begin(), keys.end());
+  VoxelIndex low = block_index(keys.front()), high = low;
+  for (const BlockKey key : keys) {
+    low = low.cwiseMin(block_index(key));
+    high = high.cwiseMax(block_index(key));
+  }
+  const VoxelIndex size = high - low + VoxelIndex::Ones();
+  // Rows are whole words.
+  const auto row = static_cast<std::size_t>((size.x() + 63) / 64);
+  const double words = static_cast<double>(row) * size.y() * size.z();
+  if (words > static_cast<double>(keys.size())) return std::sort(keys.begin(), keys.end());
+  std::vector<std::uint64_t> bits(static_cast<std::size_t>(words), 0);
+  for (const BlockKey key : keys) {
+    const VoxelIndex at = block_index(key) - low;
+    const auto line = static_cast<std::size_t>(at.z() * size.y() + at.y());
+    bits[line * row + static_cast<std::size_t>(at.x() / 64)] |= std::uint64_t{1} << at.x() % 64;
+  }
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < bits.size(); ++i) {
+    const auto line = static_cast<int>(i / row), word = static_cast<int>(i % row);
+    const BlockKey first =
+        pack_block(low.x() + 64 * word, low.y() + line % size.y(), low.z() + line / size.y());
+    for (std::uint64_t rest = bits[i]; rest != 0; rest &= rest - 1) {
+      keys[count++] = first + static_cast<BlockKey>(std::countr_zero(rest));
+    }
+  }
+}
 
 }  // namespace
 
@@ -78,12 +128,15 @@ std::uint8_t VoxelMap::summary_of(const BlockMasks& masks) {
 
 VoxelMap::Outcome VoxelMap::compare(const BlockMasks& before, const BlockMasks& now) {
   Outcome outcome;
-  outcome.changed = !(now.observed == before.observed && now.occupied == before.occupied &&
-                      now.roi == before.roi);
-  if (!outcome.changed) return outcome;
-  outcome.observed = now.observed.count() - before.observed.count();
-  outcome.occupied = now.occupied.count() - before.occupied.count();
-  outcome.roi = now.roi.count() - before.roi.count();
+  const auto gained = [&](VoxelMask BlockMasks::*kind) {
+    const VoxelMask &old = before.*kind, &mask = now.*kind;
+    if (alike(old, mask)) return 0;
+    outcome.changed = true;
+    return mask.count() - old.count();
+  };
+  outcome.observed = gained(&BlockMasks::observed);
+  outcome.occupied = gained(&BlockMasks::occupied);
+  outcome.roi = gained(&BlockMasks::roi);
   return outcome;
 }
 
@@ -98,12 +151,14 @@ bool VoxelMap::apply_alike(const VoxelMask& miss, const Place& place, UpdateResu
   const FixedPoint first = after_miss(0);
   const VoxelMask& observed = masks_[place.slot].observed;
   FixedPoint value = first;
+  bool first_time = true;
   if (observed.any()) {
     VoxelMask again = observed;
     again &= miss;
     value = blocks_[place.slot].uniform;
     if (again.any()) {
-      if (!(observed == miss)) return false;
+      if (!alike(observed, miss)) return false;
+      first_time = false;
       value = after_miss(value);
     } else if (value != first) {
       return false;
@@ -111,12 +166,18 @@ bool VoxelMap::apply_alike(const VoxelMask& miss, const Place& place, UpdateResu
   }
   Block& block = blocks_.own(place.slot);
   BlockMasks& masks = masks_.own(place.slot);
-  const BlockMasks before = masks;
   block.uniform = value;
-  masks.observed |= miss;
-  masks.occupied = value >= steps_.threshold ? masks.observed : VoxelMask{};
-  Outcome outcome = compare(before, masks);
+  Outcome outcome;
   outcome.stepped = miss.count();
+  outcome.observed = first_time ? outcome.stepped : 0;  // all of them, or none
+  masks.observed |= miss;
+  const VoxelMask occupied = value >= steps_.threshold ? masks.observed : VoxelMask{};
+  outcome.changed = first_time && outcome.stepped != 0;
+  if (!alike(masks.occupied, occupied)) {
+    outcome.changed = true;
+    outcome.occupied = occupied.count() - masks.occupied.count();
+    masks.occupied = occupied;
+  }
   if (outcome.changed) {
     *place.summary = summary_of(masks);
     block.version = updates_;
@@ -260,42 +321,64 @@ UpdateResult VoxelMap::apply(std::span<const BlockUpdate> updates,
   ++updates_;
   UpdateResult result;
   Chunks chunks(directory_);
-  const auto place_of = [&](BlockKey key) {
+  // Slots are found or made well before they are looked at.
+  Kept<std::vector<Place>> kept_places;
+  std::vector<Place>& places = *kept_places;
+  places.clear();
+  const auto find = [&](BlockKey key) {
     BlockDirectory::Chunk& chunk = chunks.of(key);
     const std::size_t in_chunk = BlockDirectory::place_in_chunk(key);
-    Place place;
+    Place& place = places.emplace_back();
     place.slot = slot_for(chunk, in_chunk, key);
     place.summary = &chunk.summaries[in_chunk];
-    return place;
   };
-  std::vector<Place> places;
-  places.reserve(updates.size() + free.size());
+  for (const BlockUpdate& update : updates) find(update.key);
+  for (const FreeBlock& block : free) find(block.key);
+  for (const BlockKey key : all_free) find(key);
+  std::size_t next = 0, left = 0;
+  const auto place_of_next = [&] {
+    if (next + kAhead < places.size()) {
+      prefetch(blocks_[places[next + kAhead].slot]);
+      prefetch(masks_[places[next + kAhead].slot]);
+    }
+    return places[next++];
+  };
   for (const BlockUpdate& update : updates) {
-    Place place = place_of(update.key);
+    Place place = place_of_next();
     const bool misses = !update.hit.any() && !update.roi_hit.any() && !update.roi_miss.any();
     if (misses && apply_alike(update.miss, place, result)) continue;
     take_storage(update, place);
     place.update = &update;
-    places.push_back(place);
+    places[left++] = place;
   }
   for (const FreeBlock& block : free) {
-    Place place = place_of(block.key);
+    Place place = place_of_next();
     if (apply_alike(block.free, place, result)) continue;
     own_log_odds(blocks_.own(place.slot), masks_.own(place.slot).observed);
     place.miss = &block.free;
-    places.push_back(place);
+    places[left++] = place;
   }
-  for (const BlockKey key : all_free) {
-    const Place place = place_of(key);
+  for (std::size_t i = 0; i < all_free.size(); ++i) {
+    const Place place = place_of_next();
     if (apply_uniform(place, result)) continue;
     own_log_odds(blocks_.own(place.slot), masks_.own(place.slot).observed);
-    places.push_back(place);
+    places[left++] = place;
   }
   const LogOddsKernels& kernels = log_odds_kernels(simd);
-  std::vector<Outcome> outcomes(places.size());
+  places.resize(left);
+  Kept<std::vector<Outcome>> kept_outcomes;
+  std::vector<Outcome>& outcomes = *kept_outcomes;
+  outcomes.resize(left);
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, outcomes.size(), 64), [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
+          if (i + 2 * kAheadCells < places.size()) {
+            prefetch(blocks_[places[i + 2 * kAheadCells].slot]);
+            prefetch(masks_[places[i + 2 * kAheadCells].slot]);
+          }
+          if (i + kAheadCells < places.size()) {
+            prefetch(log_odds_[blocks_[places[i + kAheadCells].slot].log_odds]);
+          }
           const Place& place = places[i];
           outcomes[i] = place.update != nullptr ? apply(*place.update, place, kernels)
                         : place.miss != nullptr ? apply_misses(*place.miss, place, kernels)
@@ -304,7 +387,7 @@ UpdateResult VoxelMap::apply(std::span<const BlockUpdate> updates,
       });
   for (std::size_t i = 0; i < outcomes.size(); ++i) count(outcomes[i], places[i].slot, result);
   observed_voxels_ += result.newly_known;
-  std::sort(result.changed.begin(), result.changed.end());
+  sort_keys(result.changed);
   return result;
 }
 
