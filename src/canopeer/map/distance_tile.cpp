@@ -22,15 +22,11 @@ struct Passes {
   static constexpr int kLanes = kLine / static_cast<int>(sizeof(Cell));
 
   int reach = 0;
-  int reach_unlimited = 0;  // gap² up to here and far together fit a cell
-  int pad = 0;              // voxels beside the tile, ≥ reach
-  int wide = 0;             // rows and planes, tile and pads
-  int stride = 0;           // cells a row
-  int deep = 0;  // rows a y of y_pass: odd, or they would all want the same places of the cache
-  Cell far = 0;  // reach²
-  // Per k ≤ reach a line of gap²(k) and one of far − gap²(k).
-  Cell* steps = nullptr;
-  Cell* limits = nullptr;
+  int pad = 0;     // voxels beside the tile, ≥ reach
+  int wide = 0;    // rows and planes, tile and pads
+  int stride = 0;  // cells a row
+  int deep = 0;    // rows a y of y_pass: odd, or they would all want the same places of the cache
+  Cell far = 0;    // reach²
   Cell* plane = nullptr;   // wide rows: 0 where occupied, all bits elsewhere
   Cell* ahead = nullptr;   // kSide rows: distance along y to what comes before
   Cell* y_pass = nullptr;  // [z of wide][y of kSide] rows
@@ -69,34 +65,38 @@ CANOPEER_KERNEL_BODY void lower(Vector& lanes, const Vector& other) {
   lanes = other < lanes ? other : lanes;
 }
 
-// best = min(best, row one + step, row other + step) over lines `apart` cells apart, step =
-// gap²(k). As far as sums fit a cell; the rest after the rows' values have been lowered to far −
-// step.
+// What of `Passes` the compiler may know beforehand, so that it unrolls the loops; 0: nothing.
+template <int kReach, int kStride>
+struct Fixed {
+  template <typename Cell>
+  static constexpr int reach(const Passes<Cell>& p) {
+    return kReach != 0 ? kReach : p.reach;
+  }
+  template <typename Cell>
+  static constexpr int stride(const Passes<Cell>& p) {
+    return kStride != 0 ? kStride : p.stride;
+  }
+};
+
+// best = least of row + gap²(k) over the rows k lines ahead and behind, lines `apart` cells apart,
+// k = 0 … reach. By Horner's rule, from the farthest on: gap²(k + 1) − gap²(k) = 2 k − 1 is so
+// small that no sum leaves the cell, as long as rows are at most far.
 template <typename Vector, typename Cell>
-CANOPEER_KERNEL_BODY void relax(Vector& best, const Cell* row, int apart, int first,
-                                const Passes<Cell>& p) {
-  const Cell* after = row + first * apart;
-  const Cell* before = row - first * apart;
-  Vector candidate, other, step, limit;
-  int k = first;
-  for (; k <= p.reach_unlimited; ++k, after += apart, before -= apart) {
-    load(candidate, after);
-    load(other, before);
-    load(step, p.steps + k * p.kLanes);
-    lower(candidate, other);
-    candidate += step;
-    lower(best, candidate);
+CANOPEER_KERNEL_BODY void relax(Vector& best, const Cell* row, int apart, int reach) {
+  Vector ahead, behind;
+  load(best, row + reach * apart);
+  load(behind, row - reach * apart);
+  lower(best, behind);
+#pragma GCC unroll 16
+  for (int k = reach - 1; k > 0; --k) {
+    load(ahead, row + k * apart);
+    load(behind, row - k * apart);
+    lower(ahead, behind);
+    best += static_cast<Cell>(2 * k - 1);
+    lower(best, ahead);
   }
-  for (; k <= p.reach; ++k, after += apart, before -= apart) {
-    load(candidate, after);
-    load(other, before);
-    load(step, p.steps + k * p.kLanes);
-    load(limit, p.limits + k * p.kLanes);
-    lower(candidate, other);
-    lower(candidate, limit);
-    candidate += step;
-    lower(best, candidate);
-  }
+  load(ahead, row);
+  lower(best, ahead);
 }
 
 // Per value of 8 bits: all ones in the lanes whose bit is not set.
@@ -116,34 +116,53 @@ struct Rows {
   int last = -kMaxWide;
 };
 
-// The plane z of the surroundings; returns the rows between which something is occupied.
+// The blocks of one layer of the surroundings that hold something.
+struct OccupiedBlocks {
+  struct Block {
+    const VoxelMask* mask;
+    std::uint8_t x, y;
+  };
+  std::array<Block, (kMaxWide / kBlockSide) * (kMaxWide / kBlockSide)> blocks;
+  std::size_t count = 0;
+};
+
 template <typename Cell>
-CANOPEER_KERNEL_BODY Rows expand_plane(const TileSurroundings& around, int z,
-                                       const Passes<Cell>& p) {
+CANOPEER_KERNEL_BODY void find_occupied(const TileSurroundings& around, int layer,
+                                        const Passes<Cell>& p, OccupiedBlocks& found) {
   const int blocks = p.wide / kBlockSide;
-  const VoxelMask* layer =
-      around.first + static_cast<std::size_t>(z / kBlockSide) * around.stride_z;
-  const auto slice = static_cast<std::size_t>(z % kBlockSide);
-  Rows occupied;
-  for (int by = 0; by < blocks; ++by) {
-    Cell* rows = p.plane + by * kBlockSide * p.stride;
-    std::memset(rows, 0xFF, sizeof(Cell) * static_cast<std::size_t>(kBlockSide * p.stride));
-    std::uint64_t used = 0;
-    for (int bx = 0; bx < blocks; ++bx) {
-      const std::uint64_t bits =
-          layer[static_cast<std::size_t>(by) * around.stride_y + static_cast<std::size_t>(bx)]
-              .slices[slice];
-      if (bits == 0) continue;
-      used |= bits;
-      for (int y = 0; y < kBlockSide; ++y) {
-        store(kNotSet<Cell>[bits >> (y * kBlockSide) & 0xFF],
-              rows + y * p.stride + bx * kBlockSide);
-      }
+  const VoxelMask* first = around.first + static_cast<std::size_t>(layer) * around.stride_z;
+  found.count = 0;
+  for (int y = 0; y < blocks; ++y) {
+    for (int x = 0; x < blocks; ++x) {
+      const VoxelMask& mask =
+          first[static_cast<std::size_t>(y) * around.stride_y + static_cast<std::size_t>(x)];
+      found.blocks[found.count] = {&mask, static_cast<std::uint8_t>(x),
+                                   static_cast<std::uint8_t>(y)};
+      found.count += mask.any();
     }
-    if (used == 0) continue;
-    const int from = by * kBlockSide;
-    occupied.first = std::min(occupied.first, from + std::countr_zero(used) / kBlockSide);
-    occupied.last = from + (63 - std::countl_zero(used)) / kBlockSide;
+  }
+}
+
+// A plane of a layer; returns the rows between which something is occupied. Where there is nothing,
+// `p.plane` is left alone.
+template <typename Cell>
+CANOPEER_KERNEL_BODY Rows expand_plane(const OccupiedBlocks& layer, std::size_t slice,
+                                       const Passes<Cell>& p) {
+  Rows occupied;
+  for (std::size_t i = 0; i < layer.count; ++i) {
+    const auto& [mask, x, y] = layer.blocks[i];
+    const std::uint64_t bits = mask->slices[slice];
+    if (bits == 0) continue;
+    if (occupied.last < 0) {
+      std::memset(p.plane, 0xFF, sizeof(Cell) * static_cast<std::size_t>(p.wide * p.stride));
+    }
+    const int from = y * kBlockSide;
+    occupied.first = std::min(occupied.first, from + std::countr_zero(bits) / kBlockSide);
+    occupied.last = std::max(occupied.last, from + (63 - std::countl_zero(bits)) / kBlockSide);
+    Cell* rows = p.plane + from * p.stride + x * kBlockSide;
+    for (int row = 0; row < kBlockSide; ++row) {
+      store(kNotSet<Cell>[bits >> (row * kBlockSide) & 0xFF], rows + row * p.stride);
+    }
   }
   return occupied;
 }
@@ -183,8 +202,11 @@ CANOPEER_KERNEL_BODY void sweep_plane(const Passes<Cell>& p, int z) {
 template <typename Cell>
 CANOPEER_KERNEL_BODY bool run_y_pass(const TileSurroundings& around, Passes<Cell>& p) {
   bool any = false;
+  OccupiedBlocks layer;
   for (int z = p.pad - p.reach; z < p.pad + kSide + p.reach; ++z) {
-    const Rows occupied = expand_plane(around, z, p);
+    if (z == p.pad - p.reach || z % kBlockSide == 0)
+      find_occupied(around, z / kBlockSide, p, layer);
+    const Rows occupied = expand_plane(layer, static_cast<std::size_t>(z % kBlockSide), p);
     const int first = std::clamp(occupied.first - p.reach - p.pad, 0, kSide);
     const int end = std::clamp(occupied.last + p.reach + 1 - p.pad, 0, kSide);
     p.first[z] = static_cast<std::uint8_t>(first);
@@ -202,25 +224,42 @@ CANOPEER_KERNEL_BODY bool run_y_pass(const TileSurroundings& around, Passes<Cell
 }
 
 // The row z of the tile (with its pads along x) from the rows of y_pass at some y; false: all far.
-template <typename Cell>
+template <typename Known, typename Cell>
 CANOPEER_KERNEL_BODY bool relax_along_z(const Passes<Cell>& p, int y, int z) {
   const auto used = [&](int plane) { return y >= p.first[plane] && y < p.end[plane]; };
-  int first = 0;
-  while (first <= p.reach && !used(z + p.pad + first) && !used(z + p.pad - first)) ++first;
-  if (first > p.reach) return false;
-  for (int x = 0; x < p.stride; x += p.kLanes) {
-    Line<Cell> best = Line<Cell>{} + p.far;
-    relax(best, p.y_pass + (y * p.deep + z + p.pad) * p.stride + x, p.stride, first, p);
-    store(best, p.z_pass + z * p.stride + x);
+  int nearest = 0;
+  while (nearest <= p.reach && !used(z + p.pad + nearest) && !used(z + p.pad - nearest)) ++nearest;
+  if (nearest > p.reach) return false;
+  for (int x = 0; x < Known::stride(p); x += p.kLanes) {
+    Line<Cell> best;
+    relax(best, p.y_pass + (y * p.deep + z + p.pad) * Known::stride(p) + x, Known::stride(p),
+          Known::reach(p));
+    store(best, p.z_pass + z * Known::stride(p) + x);
   }
   return true;
 }
 
-template <typename Cell>
+template <typename Known, typename Cell>
 CANOPEER_KERNEL_BODY void relax_along_x(const Passes<Cell>& p, int z, Cell* out) {
-  TileRow<Cell> best = TileRow<Cell>{} + p.far;
-  relax(best, p.z_pass + z * p.stride + p.pad, 1, 0, p);
+  TileRow<Cell> best;
+  relax(best, p.z_pass + z * Known::stride(p) + p.pad, 1, Known::reach(p));
   store(best, out);
+}
+
+template <typename Known, typename Cell>
+CANOPEER_KERNEL_BODY void run_z_and_x_pass(const Passes<Cell>& p, Cell* cells) {
+  std::array<bool, kSide> used;
+  for (int y = 0; y < kSide; ++y) {
+    for (int z = 0; z < kSide; ++z) used[z] = relax_along_z<Known>(p, y, z);
+    for (int z = 0; z < kSide; ++z) {
+      Cell* row = cells + (z * kSide + y) * kSide;
+      if (used[z]) {
+        relax_along_x<Known>(p, z, row);
+      } else {
+        std::fill_n(row, kSide, p.far);
+      }
+    }
+  }
 }
 
 template <typename Cell>
@@ -229,17 +268,10 @@ CANOPEER_KERNEL_BODY bool run_body(const TileSurroundings& around, Passes<Cell>&
   if (!run_y_pass(around, p)) return false;
   out.resize(kSide * kSide * kSide * sizeof(Cell));
   auto* cells = reinterpret_cast<Cell*>(out.data());
-  std::array<bool, kSide> used;
-  for (int y = 0; y < kSide; ++y) {
-    for (int z = 0; z < kSide; ++z) used[z] = relax_along_z(p, y, z);
-    for (int z = 0; z < kSide; ++z) {
-      Cell* row = cells + (z * kSide + y) * kSide;
-      if (used[z]) {
-        relax_along_x(p, z, row);
-      } else {
-        std::fill_n(row, kSide, p.far);
-      }
-    }
+  if (sizeof(Cell) == 1 && p.reach == 15 && p.stride == kLine) {
+    run_z_and_x_pass<Fixed<15, kLine>>(p, cells);
+  } else {
+    run_z_and_x_pass<Fixed<0, 0>>(p, cells);
   }
   return true;
 }
@@ -277,19 +309,11 @@ Passes<Cell> take_memory(int halo, int reach, TileScratch& scratch) {
   const int row_lines = p.stride / p.kLanes;
   p.deep = p.wide + 1;
   const int rows = p.wide + kSide + kSide * p.deep + kSide;
-  scratch.lines.resize(static_cast<std::size_t>(2 * (reach + 1) + rows * row_lines));
-  p.steps = reinterpret_cast<Cell*>(scratch.lines.data());
-  p.limits = p.steps + (reach + 1) * p.kLanes;
-  p.plane = p.limits + (reach + 1) * p.kLanes;
+  scratch.lines.resize(static_cast<std::size_t>(rows * row_lines));
+  p.plane = reinterpret_cast<Cell*>(scratch.lines.data());
   p.ahead = p.plane + p.wide * p.stride;
   p.y_pass = p.ahead + kSide * p.stride;
   p.z_pass = p.y_pass + kSide * p.deep * p.stride;
-  for (int k = 0; k <= reach; ++k) {
-    const int gap = std::max(0, k - 1);
-    if (p.far + gap * gap <= std::numeric_limits<Cell>::max()) p.reach_unlimited = k;
-    std::fill_n(p.steps + k * p.kLanes, p.kLanes, static_cast<Cell>(gap * gap));
-    std::fill_n(p.limits + k * p.kLanes, p.kLanes, static_cast<Cell>(p.far - gap * gap));
-  }
   return p;
 }
 
