@@ -106,6 +106,12 @@ void map_fuse(const MapFuseArguments& arguments) {
     print_map(map);
     for (const auto& file : files) std::printf("%s\n", file.c_str());
   }
+  if (!stop && map.observed_voxels() == 0) {
+    std::fprintf(stderr,
+                 "canopeer: warning: %s is empty: none of the %d frames of %s has a pixel or point "
+                 "with a finite distance\n",
+                 arguments.out.c_str(), fused.frames, arguments.dataset.c_str());
+  }
   if (stop) {
     std::fprintf(stderr, "canopeer: interrupted; %s holds the first %d frames\n",
                  arguments.out.c_str(), fused.frames);

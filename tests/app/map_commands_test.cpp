@@ -166,6 +166,25 @@ TEST_F(MapFuse, FoldersOfCloudsBecomeTheMapOfTheirClouds) {
   }
 }
 
+TEST_F(MapFuse, AMapThatStaysEmptyIsWarnedOf) {
+  const fs::path dataset = directory_ / "clouds";
+  fs::create_directory(dataset);
+  for (const char* name : {"a.ply", "b.ply"}) {
+    write(dataset / name,
+          "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+          "property float z\nend_header\nnan nan nan\nnan 0 1\n");
+  }
+  write(dataset / "poses.txt", "0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n");
+  const fs::path out = directory_ / "map.cmap";
+  const auto result =
+      test::canopeer({"map", "fuse", dataset.string(), "--out", out.string(), "--quiet"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.err, "canopeer: warning: " + out.string() +
+                            " is empty: none of the 2 frames of " + dataset.string() +
+                            " has a pixel or point with a finite distance\n");
+  EXPECT_TRUE(fs::exists(out));
+}
+
 TEST_F(MapFuse, AnyNumberOfThreadsWritesTheSameFile) {
   RecordedScene::make(4, 3).write_pcd_folder(directory_ / "pcd");
   const auto bytes = [&](const std::string& threads) {

@@ -30,39 +30,6 @@ class Neighbourhood {
     blocks_[13] = map.block(key);
   }
 
-  // Slice z ∈ [−1, 8] of the block at (dx, dy) beside this one; `Kind` picks the bits.
-  template <typename Kind>
-  Slice slice(Kind kind, int dx, int dy, int z) {
-    const int dz = z < 0 ? -1 : z >= kBlockSide ? 1 : 0;
-    return kind(block(dx, dy, dz), static_cast<std::size_t>(z & (kBlockSide - 1)));
-  }
-  template <typename Kind>
-  Slice x_neighbours(Kind kind, int dy, int z) {
-    const Slice s = slice(kind, 0, dy, z);
-    return from_lower_x(s, slice(kind, -1, dy, z)) | from_upper_x(s, slice(kind, 1, dy, z));
-  }
-  template <typename Kind>
-  Slice y_neighbours(Kind kind, int z) {
-    const Slice s = slice(kind, 0, 0, z);
-    return from_lower_y(s, slice(kind, 0, -1, z)) | from_upper_y(s, slice(kind, 0, 1, z));
-  }
-  template <typename Kind>
-  Slice xy_neighbours(Kind kind, int z) {
-    const Slice s = x_neighbours(kind, 0, z);
-    return from_lower_y(s, x_neighbours(kind, -1, z)) | from_upper_y(s, x_neighbours(kind, 1, z));
-  }
-  // The voxels of slice z with a 6- or 18-neighbour of the kind.
-  template <typename Kind>
-  Slice near6(Kind kind, int z) {
-    return x_neighbours(kind, 0, z) | y_neighbours(kind, z) | slice(kind, 0, 0, z - 1) |
-           slice(kind, 0, 0, z + 1);
-  }
-  template <typename Kind>
-  Slice near18(Kind kind, int z) {
-    Slice sum = near6(kind, z) | xy_neighbours(kind, z);
-    for (const int dz : {-1, 1}) sum |= x_neighbours(kind, 0, z + dz) | y_neighbours(kind, z + dz);
-    return sum;
-  }
   // (0, 0, 0) is the block itself.
   const BlockMasks& block(int dx, int dy, int dz) {
     static const BlockMasks kUnknown{};
@@ -80,78 +47,128 @@ class Neighbourhood {
   std::array<const BlockMasks*, 27> blocks_;
 };
 
-// Slices −1 … 8 of a column of blocks, and the same of the four columns beside it.
-struct Cross {
-  std::array<Slice, kBlockSide + 2> centre;
-  std::array<Slice, kBlockSide> lower_x, upper_x, lower_y, upper_y;
-};
+// Slices −1 … 8 of a column of blocks.
+using Column = std::array<Slice, kBlockSide + 2>;
+// The nine columns around a block: [dy + 1][dx + 1].
+using Columns = std::array<std::array<Column, 3>, 3>;
 
-// The voxels of the middle block with a 6-neighbour in the cross.
-CANOPEER_KERNEL_BODY void near6_body(const Cross& cross, Slice* near) {
+// The voxels of the middle block with a 6-neighbour.
+CANOPEER_KERNEL_BODY void near6_body(const Columns& columns, Slice* near) {
+  const Column& centre = columns[1][1];
   for (std::size_t z = 0; z < kBlockSide; ++z) {
-    const Slice s = cross.centre[z + 1];
-    near[z] = from_lower_x(s, cross.lower_x[z]) | from_upper_x(s, cross.upper_x[z]) |
-              from_lower_y(s, cross.lower_y[z]) | from_upper_y(s, cross.upper_y[z]) |
-              cross.centre[z] | cross.centre[z + 2];
+    const Slice s = centre[z + 1];
+    near[z] = from_lower_x(s, columns[1][0][z + 1]) | from_upper_x(s, columns[1][2][z + 1]) |
+              from_lower_y(s, columns[0][1][z + 1]) | from_upper_y(s, columns[2][1][z + 1]) |
+              centre[z] | centre[z + 2];
   }
 }
-void near6_scalar(const Cross& cross, Slice* near) { near6_body(cross, near); }
-CANOPEER_TARGET_AVX2 void near6_avx2(const Cross& cross, Slice* near) { near6_body(cross, near); }
-CANOPEER_TARGET_AVX512 void near6_avx512(const Cross& cross, Slice* near) {
-  near6_body(cross, near);
+
+// Those with an 18-neighbour.
+CANOPEER_KERNEL_BODY void near18_body(const Columns& columns, Slice* near) {
+  Column beside_x[3], beside, diagonal;
+  for (std::size_t y = 0; y < 3; ++y) {
+    for (std::size_t z = 0; z < beside.size(); ++z) {
+      const Slice s = columns[y][1][z];
+      beside_x[y][z] = from_lower_x(s, columns[y][0][z]) | from_upper_x(s, columns[y][2][z]);
+    }
+  }
+  for (std::size_t z = 0; z < beside.size(); ++z) {
+    const Slice s = columns[1][1][z], x = beside_x[1][z];
+    beside[z] = x | from_lower_y(s, columns[0][1][z]) | from_upper_y(s, columns[2][1][z]);
+    diagonal[z] = from_lower_y(x, beside_x[0][z]) | from_upper_y(x, beside_x[2][z]);
+  }
+  const Column& centre = columns[1][1];
+  for (std::size_t z = 0; z < kBlockSide; ++z) {
+    near[z] =
+        beside[z] | beside[z + 1] | beside[z + 2] | diagonal[z + 1] | centre[z] | centre[z + 2];
+  }
 }
+
+struct NearKernels {
+  void (*near6)(const Columns& columns, Slice* near);
+  void (*near18)(const Columns& columns, Slice* near);
+};
+
+#define CANOPEER_KERNELS(NAME, TARGET)                                                           \
+  TARGET void near6_##NAME(const Columns& columns, Slice* near) { near6_body(columns, near); }   \
+  TARGET void near18_##NAME(const Columns& columns, Slice* near) { near18_body(columns, near); } \
+  constexpr NearKernels kNear_##NAME = {near6_##NAME, near18_##NAME};
+
+CANOPEER_KERNELS(scalar, )
+#if defined(__x86_64__)
+CANOPEER_KERNELS(avx2, CANOPEER_TARGET_AVX2)
+CANOPEER_KERNELS(avx512, CANOPEER_TARGET_AVX512)
+#endif
 
 // `Kind` picks the bits of a block's slice.
 template <typename Kind>
-void gather(Neighbourhood& around, Kind kind, Cross& cross) {
-  cross.centre[0] = around.slice(kind, 0, 0, -1);
-  cross.centre[kBlockSide + 1] = around.slice(kind, 0, 0, kBlockSide);
-  const auto copy = [&](int dx, int dy, Slice* out) {
-    const BlockMasks& block = around.block(dx, dy, 0);
-    for (std::size_t z = 0; z < kBlockSide; ++z) out[z] = kind(block, z);
-  };
-  copy(0, 0, &cross.centre[1]);
-  copy(-1, 0, cross.lower_x.data());
-  copy(1, 0, cross.upper_x.data());
-  copy(0, -1, cross.lower_y.data());
-  copy(0, 1, cross.upper_y.data());
+void gather_column(Neighbourhood& around, Kind kind, int dx, int dy, Columns& columns) {
+  Column& column = columns[static_cast<std::size_t>(dy + 1)][static_cast<std::size_t>(dx + 1)];
+  const BlockMasks& block = around.block(dx, dy, 0);
+  for (std::size_t z = 0; z < kBlockSide; ++z) column[z + 1] = kind(block, z);
+}
+
+// What near6 wants.
+template <typename Kind>
+void gather_cross(Neighbourhood& around, Kind kind, Columns& columns) {
+  columns[1][1].front() = kind(around.block(0, 0, -1), kBlockSide - 1);
+  columns[1][1].back() = kind(around.block(0, 0, 1), 0);
+  gather_column(around, kind, 0, 0, columns);
+  for (const int d : {-1, 1}) {
+    gather_column(around, kind, d, 0, columns);
+    gather_column(around, kind, 0, d, columns);
+  }
+}
+
+// What near18 wants.
+template <typename Kind>
+void gather_all(Neighbourhood& around, Kind kind, Columns& columns) {
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      gather_column(around, kind, dx, dy, columns);
+      Column& column = columns[static_cast<std::size_t>(dy + 1)][static_cast<std::size_t>(dx + 1)];
+      column.front() = kind(around.block(dx, dy, -1), kBlockSide - 1);
+      column.back() = kind(around.block(dx, dy, 1), 0);
+    }
+  }
 }
 
 }  // namespace
 
-FrontierMasks frontier_masks(const VoxelMap& map, BlockKey key, bool near_roi, SimdLevel simd) {
+FrontierMasks frontier_masks(const VoxelMap& map, BlockKey key, bool near_roi,
+                             [[maybe_unused]] SimdLevel simd) {
   const auto unknown = [](const BlockMasks& b, std::size_t z) { return ~b.observed.slices[z]; };
   const auto occupied = [](const BlockMasks& b, std::size_t z) { return b.occupied.slices[z]; };
   const auto roi = [](const BlockMasks& b, std::size_t z) { return b.roi.slices[z]; };
-  const auto near6 = simd == SimdLevel::avx512 ? near6_avx512
-                     : simd == SimdLevel::avx2 ? near6_avx2
-                                               : near6_scalar;
+  const NearKernels& kernels = CANOPEER_AT_LEVEL(simd, kNear);
   FrontierMasks masks;
   const BlockMasks& block = *map.block(key);
   VoxelMask free = block.observed;
   free -= block.occupied;
   if (!free.any()) return masks;
   Neighbourhood around(map, key);
-  Cross cross;
-  gather(around, unknown, cross);
+  Columns columns;
+  gather_cross(around, unknown, columns);
   VoxelMask open;
-  near6(cross, open.slices.data());
+  kernels.near6(columns, open.slices.data());
   open &= free;
   if (open.any()) {
-    gather(around, occupied, cross);
+    gather_cross(around, occupied, columns);
     VoxelMask beside_occupied;
-    near6(cross, beside_occupied.slices.data());
+    kernels.near6(columns, beside_occupied.slices.data());
     masks.occupied = masks.border = open;
     masks.occupied &= beside_occupied;
     masks.border -= beside_occupied;
   }
   if (!near_roi) return masks;
-  for (int z = 0; z < kBlockSide; ++z) {
-    const auto i = static_cast<std::size_t>(z);
-    if (free.slices[i] == 0) continue;
-    const Slice beside_roi = free.slices[i] & around.near18(roi, z);
-    if (beside_roi != 0) masks.roi.slices[i] = beside_roi & around.near18(unknown, z);
-  }
+  gather_all(around, roi, columns);
+  kernels.near18(columns, masks.roi.slices.data());
+  masks.roi &= free;
+  if (!masks.roi.any()) return masks;
+  gather_all(around, unknown, columns);
+  VoxelMask beside_unknown;
+  kernels.near18(columns, beside_unknown.slices.data());
+  masks.roi &= beside_unknown;
   return masks;
 }
 
