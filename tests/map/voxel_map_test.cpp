@@ -9,6 +9,7 @@
 #include <map>
 
 #include "ball_scene.h"
+#include "canopeer/map/block_key_order.h"
 #include "canopeer/map/map_cloud.h"
 #include "canopeer/map/voxel_bounds.h"
 
@@ -16,6 +17,26 @@ namespace canopeer {
 namespace {
 
 double log_odds(double p) { return std::log(p / (1.0 - p)); }
+
+TEST(BlockKeys, AreSortedWhereverTheyLie) {
+  Rng rng(1, "keys");
+  for (const int reach : {1, 3, 20, 150, kBlockIndexLimit - 1}) {
+    for (const std::size_t wanted : {0U, 1U, 70U, 3000U}) {
+      std::vector<BlockKey> keys;
+      const auto index = [&] { return static_cast<int>(rng.index(2U * reach + 1)) - reach; };
+      for (std::size_t i = 0; i < wanted; ++i) {
+        const int x = index(), y = index();
+        keys.push_back(pack_block(x, y, index()));
+      }
+      std::sort(keys.begin(), keys.end());
+      keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+      std::vector<BlockKey> mixed = keys;
+      for (std::size_t i = mixed.size(); i > 1; --i) std::swap(mixed[i - 1], mixed[rng.index(i)]);
+      sort_keys(mixed);
+      EXPECT_EQ(mixed, keys) << wanted << " within " << reach;
+    }
+  }
+}
 
 TEST(Block, KeysRoundTripAndSortByZThenYThenX) {
   for (const VoxelIndex& v : {VoxelIndex(0, 0, 0), VoxelIndex(-1, -8, -9), VoxelIndex(7, 8, -70000),
