@@ -20,7 +20,8 @@ void sort_keys(std::vector<BlockKey>& keys) {
   std::vector<std::uint64_t> bits(static_cast<std::size_t>(words), 0);
   for (const BlockKey key : keys) {
     const VoxelIndex at = block_index(key) - low;
-    const auto line = static_cast<std::size_t>(at.z() * size.y() + at.y());
+    const std::size_t line = static_cast<std::size_t>(at.z()) * static_cast<std::size_t>(size.y()) +
+                             static_cast<std::size_t>(at.y());
     bits[line * row + static_cast<std::size_t>(at.x() / 64)] |= std::uint64_t{1} << at.x() % 64;
   }
   std::size_t count = 0;

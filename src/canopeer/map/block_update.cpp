@@ -231,7 +231,7 @@ bool VoxelMap::apply_uniform(const Place& place, UpdateResult& result) {
       summary = summary_of(masks);
       block.version = updates_;
       result.newly_known += is_new ? kBlockVoxels : 0;
-      occupied_voxels_ += kBlockVoxels * (int{occupied} - int{was_occupied});
+      occupied_voxels_ += std::int64_t{kBlockVoxels} * (int{occupied} - int{was_occupied});
       result.changed.push_back(block.key);
     }
     if (block.uniform == steps_.min) summary |= BlockSummary::kSettled;

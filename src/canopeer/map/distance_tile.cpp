@@ -122,7 +122,8 @@ struct OccupiedBlocks {
     const VoxelMask* mask;
     std::uint8_t x, y;
   };
-  std::array<Block, (kMaxWide / kBlockSide) * (kMaxWide / kBlockSide)> blocks;
+  static constexpr std::size_t kSideBlocks = kMaxWide / kBlockSide;
+  std::array<Block, kSideBlocks * kSideBlocks> blocks;
   std::size_t count = 0;
 };
 
@@ -266,7 +267,7 @@ template <typename Cell>
 CANOPEER_KERNEL_BODY bool run_body(const TileSurroundings& around, Passes<Cell>& p,
                                    std::vector<std::uint8_t>& out) {
   if (!run_y_pass(around, p)) return false;
-  out.resize(kSide * kSide * kSide * sizeof(Cell));
+  out.resize(sizeof(Cell) * kSide * kSide * kSide);
   auto* cells = reinterpret_cast<Cell*>(out.data());
   if (sizeof(Cell) == 1 && p.reach == 15 && p.stride == kLine) {
     run_z_and_x_pass<Fixed<15, kLine>>(p, cells);
@@ -309,7 +310,7 @@ Passes<Cell> take_memory(int halo, int reach, TileScratch& scratch) {
   const int row_lines = p.stride / p.kLanes;
   p.deep = p.wide + 1;
   const int rows = p.wide + kSide + kSide * p.deep + kSide;
-  scratch.lines.resize(static_cast<std::size_t>(rows * row_lines));
+  scratch.lines.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(row_lines));
   p.plane = reinterpret_cast<Cell*>(scratch.lines.data());
   p.ahead = p.plane + p.wide * p.stride;
   p.y_pass = p.ahead + kSide * p.stride;
