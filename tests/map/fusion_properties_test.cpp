@@ -341,7 +341,8 @@ TEST(ViewCastAll, ACastIsValidUntilABlockItTouchedChanges) {
   const ViewCast cast = cast_view(map, BallScene::random_camera(rng));
   const std::uint64_t version = map.version();
   EXPECT_TRUE(still_valid(cast, map, version));
-  const VoxelIndex inside = block_origin(cast.touched[cast.touched.size() / 2]);
+  const std::vector<BlockKey> touched = cast.touched.keys();
+  const VoxelIndex inside = block_origin(touched[touched.size() / 2]);
   map.set_occupancy_log_odds(VoxelIndex(5000, 0, 0), 1.0);  // far away
   EXPECT_TRUE(still_valid(cast, map, version));
   map.set_occupancy_log_odds(inside, 1.0);

@@ -258,7 +258,7 @@ TEST(SimdKernels, CubesAreClassifiedAsTheirVoxelsAre) {
 
 // Walks from lattice points too, where ties decide, and walks of one voxel.
 TEST(SimdKernels, RaysCrossTheVoxelsAPlainWalkerCrosses) {
-  constexpr std::size_t kVoxels = 120, kItems = kVoxels * RayLanes::kCount;
+  constexpr std::size_t kVoxels = 120;
   Rng rng(6, "rays");
   const VoxelIndex corner = VoxelIndex::Constant(-160);
   for (int round = 0; round < 100; ++round) {
@@ -282,38 +282,45 @@ TEST(SimdKernels, RaysCrossTheVoxelsAPlainWalkerCrosses) {
     for (const SimdLevel level : kSimdLevels) {
       if (level > best_simd_level()) continue;
       std::vector<RayLanes::Row<PackedVoxel>> at(kVoxels);
-      std::vector<RayLanes::Row<std::uint16_t>> offset(kItems / 32 + 1);
-      std::vector<std::uint8_t> enters(kVoxels);
-      walk_rays_kernel(level)(
-          lanes, kVoxels, {at.front().items.data(), offset.front().items.data(), enters.data()});
+      std::vector<RayLanes::Row<std::uint64_t>> run(kVoxels);
+      std::vector<std::uint8_t> slice(kVoxels * RayLanes::kCount);
+      std::vector<std::uint8_t> leaves_slice(kVoxels), leaves_block(kVoxels);
+      walk_rays_kernel(level)(lanes, kVoxels,
+                              {at.front().items.data(), slice.data(), run.front().items.data(),
+                               leaves_slice.data(), leaves_block.data()});
       for (std::size_t lane = 0; lane < RayLanes::kCount; ++lane) {
-        ASSERT_LE(expected[lane].size(), kVoxels * 2);
-        for (std::size_t i = 0; i < std::min(kVoxels, expected[lane].size()); ++i) {
-          const VoxelIndex v = expected[lane][i] - corner;
-          const PackedVoxel packed = at[i].items[lane];
-          ASSERT_EQ(packed,
+        const std::vector<VoxelIndex>& walk = expected[lane];
+        std::uint64_t bits = 0;
+        for (std::size_t i = 0; i < std::min(kVoxels, walk.size()); ++i) {
+          const VoxelIndex v = walk[i] - corner;
+          ASSERT_EQ(at[i].items[lane],
                     v.x() + v.y() * packed_voxel::kOneOf[1] + v.z() * packed_voxel::kOneOf[2])
               << simd_level_name(level);
-          ASSERT_EQ(offset.front().items.data()[i * RayLanes::kCount + lane], voxel_offset(v));
-          const bool enters_block =
-              i == 0 || block_key(expected[lane][i - 1]) != block_key(expected[lane][i]);
-          ASSERT_EQ((enters[i] >> lane & 1) != 0, enters_block) << simd_level_name(level);
+          ASSERT_EQ(slice[i * RayLanes::kCount + lane], VoxelMask::slice_of(walk[i]));
+          bits |= VoxelMask::bit_of(walk[i]);
+          ASSERT_EQ(run[i].items[lane], bits) << simd_level_name(level);
+          if (i + 1 == walk.size()) break;
+          const bool other_block = block_key(walk[i + 1]) != block_key(walk[i]);
+          const bool other_slice = other_block || walk[i + 1].z() != walk[i].z();
+          ASSERT_EQ((leaves_block[i] >> lane & 1) != 0, other_block) << simd_level_name(level);
+          ASSERT_EQ((leaves_slice[i] >> lane & 1) != 0, other_slice) << simd_level_name(level);
+          if (other_slice) bits = 0;
         }
       }
     }
   }
 }
 
-TEST(SimdKernels, EnteredBlocksAreTurnedIntoARowALane) {
-  Rng rng(7, "enters");
+TEST(SimdKernels, BitsPerStepAreTurnedIntoARowALane) {
+  Rng rng(7, "rows");
   for (const std::size_t steps : {1U, 8U, 63U, 64U, 65U, 200U}) {
-    std::vector<std::uint8_t> enters((steps + 7) / 8 * 8);
-    for (std::uint8_t& lanes : enters) lanes = static_cast<std::uint8_t>(rng.uniform(0, 256));
+    std::vector<std::uint8_t> lanes((steps + 7) / 8 * 8);
+    for (std::uint8_t& step : lanes) step = static_cast<std::uint8_t>(rng.uniform(0, 256));
     std::vector<std::uint64_t> rows(RayLanes::kCount * (steps / 64 + 1));
-    const std::size_t words = turn_enters(enters.data(), steps, rows.data());
+    const std::size_t words = turn_to_rows(lanes.data(), steps, rows.data());
     for (std::size_t lane = 0; lane < RayLanes::kCount; ++lane) {
       for (std::size_t step = 0; step < steps; ++step) {
-        ASSERT_EQ(rows[lane * words + step / 64] >> (step % 64) & 1, enters[step] >> lane & 1U)
+        ASSERT_EQ(rows[lane * words + step / 64] >> (step % 64) & 1, lanes[step] >> lane & 1U)
             << steps << " steps, lane " << lane << ", step " << step;
       }
     }

@@ -23,21 +23,21 @@ TEST(CellUnion, CountsWhatVoxelSetsCount) {
     for (int i = 0; i < 6; ++i) {
       const VoxelSet set = random_set(rng);
       const auto prepared = cells.prepare(set);
-      ASSERT_EQ(cells.count_new(prepared), plain.count_new(set));
-      cells.add(prepared);
+      ASSERT_EQ(cells.count_new(set, prepared), plain.count_new(set));
+      cells.add(set, prepared);
       plain.merge(set);
-      ASSERT_EQ(cells.count_new(prepared), 0);
+      ASSERT_EQ(cells.count_new(set, prepared), 0);
     }
   }
 }
 
 VoxelSet moved(const VoxelSet& set, const VoxelIndex& by_blocks) {
-  std::vector<VoxelSet::Block> blocks;
-  for (const auto& block : set.blocks()) {
-    const VoxelIndex at = block_index(block.key) + by_blocks;
-    blocks.push_back({pack_block(at.x(), at.y(), at.z()), block.mask});
+  std::vector<BlockKey> keys;
+  for (const BlockKey key : set.keys()) {
+    const VoxelIndex at = block_index(key) + by_blocks;
+    keys.push_back(pack_block(at.x(), at.y(), at.z()));
   }
-  return VoxelSet(std::move(blocks));
+  return VoxelSet(keys, set.places(), set.words());
 }
 
 TEST(CellUnion, SetsPreparedEarlierStayValidWhenLaterOnesLieElsewhere) {
@@ -52,13 +52,13 @@ TEST(CellUnion, SetsPreparedEarlierStayValidWhenLaterOnesLieElsewhere) {
   }
   VoxelSet plain;
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    ASSERT_EQ(cells.count_new(prepared[i]), plain.count_new(sets[i]));
-    cells.add(prepared[i]);
+    ASSERT_EQ(cells.count_new(sets[i], prepared[i]), plain.count_new(sets[i]));
+    cells.add(sets[i], prepared[i]);
     plain.merge(sets[i]);
   }
   cells.clear();
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    EXPECT_EQ(cells.count_new(prepared[i]), sets[i].count());
+    EXPECT_EQ(cells.count_new(sets[i], prepared[i]), sets[i].count());
   }
 }
 

@@ -84,9 +84,15 @@ TEST(ViewGraph, ForgetsOnlyTheCastsThatAChangeTouches) {
   ViewGraph graph;
   const NodeId near = graph.add(view_at(Configuration::Zero(6)));
   const NodeId far = graph.add(view_at(Configuration::Ones(6)));
-  graph.node(near).cast = ViewCast{VoxelSet(), {1, 5, 9}};
-  graph.node(far).cast = ViewCast{VoxelSet(), {2, 6}};
-  graph.invalidate_casts({4, 5});
+  const auto block = [](int x) { return pack_block(x, 2 * x, -x); };
+  const auto blocks = [&](const std::vector<int>& xs) {
+    std::vector<BlockKey> keys;
+    for (const int x : xs) keys.push_back(block(x));
+    return BlockSet(keys);
+  };
+  graph.node(near).cast = ViewCast{VoxelSet(), blocks({1, 5, 9})};
+  graph.node(far).cast = ViewCast{VoxelSet(), blocks({2, 6})};
+  graph.invalidate_casts({block(4), block(5)});
   EXPECT_FALSE(graph.node(near).cast.has_value());
   EXPECT_TRUE(graph.node(far).cast.has_value());
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "canopeer/base/simd_level.h"
 #include "canopeer/geometry/voxel_ray.h"
@@ -47,9 +48,11 @@ struct RayLanes {
   alignas(64) std::array<Lanes, 3> t;
   alignas(64) std::array<Lanes, 3> dt;
   alignas(64) std::array<Lanes, 3> move;  ///< packed
+  alignas(64) Lanes steps;
 
   /// `corner`: the window's first voxel.
   void set(std::size_t lane, const VoxelWalk& walk, const VoxelIndex& corner) {
+    steps[lane] = walk.steps;
     const VoxelIndex start = walk.first - corner;
     at[lane] = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -62,23 +65,34 @@ struct RayLanes {
   }
 };
 
-/// Where eight walks go: item step · 8 + lane, both from addresses that are multiples of 64.
+/// Sets all lanes to the walks `from` → ends[lane], the last one repeated in those that are left.
+/// `ends`: 1 … 8; all in front of `corner`, the window's first voxel.
+using StartRays = void (*)(const Vec3& from, std::span<const Vec3> ends, double resolution_m,
+                           const VoxelIndex& corner, RayLanes& rays);
+
+/// Where eight walks go: item step · 8 + lane, from addresses that are multiples of 64.
+///
+/// A slice of a block is one word of its mask; the steps of a walk that lie in one slice are a run.
 struct RaySteps {
   PackedVoxel* at = nullptr;
-  std::uint16_t* offset = nullptr;  ///< among the voxels of its block, x fastest
-  /// Per step, bit lane: the voxel lies in another block than the one before; all for step 0.
-  std::uint8_t* enters = nullptr;
+  std::uint8_t* slice = nullptr;  ///< of its block
+  /// The voxels of the run up to here, as bits of the slice; at the run's end all of them.
+  std::uint64_t* run = nullptr;
+  /// Per step, bit lane: the next voxel lies in another slice, in another block.
+  std::uint8_t* leaves_slice = nullptr;
+  std::uint8_t* leaves_block = nullptr;
 };
 
 /// Walks as walk_voxels() does, `voxels` voxels in all lanes; a walk shorter than that goes on past
 /// its end. At most 64 times the steps of the shortest one, or times overflow.
 using WalkRays = void (*)(const RayLanes& rays, std::size_t voxels, const RaySteps& out);
 
-/// Turns RaySteps::enters of `steps` steps (read in eights) into a row of bits a lane: bit i of
-/// word w says whether step 64 w + i enters a block. Returns the words of a row.
-std::size_t turn_enters(const std::uint8_t* enters, std::size_t steps, std::uint64_t* rows);
+/// Turns bits per step and lane (`steps` steps, read in eights) into a row of bits a lane: bit i of
+/// word w is that of step 64 w + i. Returns the words of a row.
+std::size_t turn_to_rows(const std::uint8_t* lanes, std::size_t steps, std::uint64_t* rows);
 
 /// `level` must be one the machine has.
+StartRays start_rays_kernel(SimdLevel level);
 WalkRays walk_rays_kernel(SimdLevel level);
 
 }  // namespace canopeer

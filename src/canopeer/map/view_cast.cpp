@@ -35,8 +35,8 @@ auto cast_fan(const VoxelMap& map, const Pose& T_world_camera, const ViewFan& fa
   for (const double x : {-extent_x, extent_x}) {
     for (const double y : {-extent_y, extent_y}) world.extend(end(x, y));
   }
-  std::vector<Vec3> ends;
-  ends.reserve(static_cast<std::size_t>(fan.rows) * static_cast<std::size_t>(fan.columns));
+  thread_local std::vector<Vec3> ends;
+  ends.clear();
   for (int row = 0; row < fan.rows; ++row) {
     for (int column = 0; column < fan.columns; ++column) {
       ends.push_back(end(place(column, fan.columns, extent_x), place(row, fan.rows, extent_y)));
@@ -59,19 +59,13 @@ SeenVoxels cast_view_all(const VoxelMap& map, const Pose& T_world_camera, const 
                   [](const ViewCaster& caster) { return caster.all(); });
 }
 
-bool still_valid(const ViewCast& cast, const std::vector<BlockKey>& changed_sorted) {
-  auto it = changed_sorted.begin();
-  for (const BlockKey key : cast.touched) {
-    it = std::lower_bound(it, changed_sorted.end(), key);
-    if (it == changed_sorted.end()) return true;
-    if (*it == key) return false;
-  }
-  return true;
+bool still_valid(const ViewCast& cast, const std::vector<BlockKey>& changed) {
+  return std::none_of(changed.begin(), changed.end(),
+                      [&](BlockKey key) { return cast.touched.contains(key); });
 }
 
 bool still_valid(const ViewCast& cast, const VoxelMap& map, std::uint64_t version) {
-  return std::all_of(cast.touched.begin(), cast.touched.end(),
-                     [&](BlockKey key) { return map.block_version(key) <= version; });
+  return cast.touched.for_each([&](BlockKey key) { return map.block_version(key) <= version; });
 }
 
 bool ray_blocked(const VoxelMap& map, const Vec3& from, const Vec3& to, double ignore_near_from_m) {

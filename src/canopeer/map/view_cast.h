@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "canopeer/geometry/pose.h"
+#include "canopeer/map/block_set.h"
 #include "canopeer/map/voxel_map.h"
 #include "canopeer/map/voxel_set.h"
 
@@ -27,7 +28,7 @@ struct ViewFan {
 
 struct ViewCast {
   VoxelSet unknown;               ///< the distinct unknown voxels the rays cross
-  std::vector<BlockKey> touched;  ///< sorted: the result holds as long as these do not change
+  BlockSet touched;  ///< the result holds as long as these do not change
 };
 
 /// What a camera at T_world_camera (optical frame) would newly see: C(n) of [Zaenker23] Alg. 1 for
@@ -41,14 +42,14 @@ struct SeenVoxels {
   VoxelSet free;
   VoxelSet occupied;  ///< where rays stop
   VoxelSet roi;       ///< ⊂ free ∪ occupied ∪ unknown
-  std::vector<BlockKey> touched;
+  BlockSet touched;
 };
 
 /// As cast_view(), for every kind of voxel; slower, as rays then step through free space too.
 SeenVoxels cast_view_all(const VoxelMap& map, const Pose& T_world_camera, const ViewFan& fan = {});
 
-/// None of the blocks the rays crossed is in `changed_sorted`.
-bool still_valid(const ViewCast& cast, const std::vector<BlockKey>& changed_sorted);
+/// None of the blocks the rays crossed is in `changed`.
+bool still_valid(const ViewCast& cast, const std::vector<BlockKey>& changed);
 /// The same by version stamps: no block the rays crossed has changed after update number
 /// `version` of the map (VoxelMap::version() when the view was cast).
 bool still_valid(const ViewCast& cast, const VoxelMap& map, std::uint64_t version);

@@ -11,15 +11,23 @@ namespace canopeer {
 namespace {
 
 constexpr VoxelMask kNothing{};
+constexpr BlockMasks kNoMasks{};
 constexpr VoxelMask kEverything = VoxelMask::all();
 
 BlockKey key_of(const VoxelIndex& block) { return pack_block(block.x(), block.y(), block.z()); }
 
-// How many voxels of this walk make up `max_unknown_m`: rays cross more of them along a diagonal.
-std::size_t unknown_voxels(const VoxelWalk& walk, double length_m, double max_unknown_m) {
-  const double all = walk.steps + 1.0;
-  return static_cast<std::size_t>(
-      max_unknown_m < length_m ? std::max(1.0, std::ceil(all * max_unknown_m / length_m)) : all);
+// How many of a ray's voxels make up `max_unknown_m`: rays cross more of them along a diagonal.
+std::size_t unknown_voxels(std::size_t voxels, double length_m, double max_unknown_m) {
+  if (max_unknown_m >= length_m) return voxels;
+  const double share = static_cast<double>(voxels) * max_unknown_m / length_m;
+  return static_cast<std::size_t>(std::max(1.0, std::ceil(share)));
+}
+
+// Without a branch.
+template <typename T>
+const T* choose(bool first, const T* a, const T* b) {
+  const auto of_a = reinterpret_cast<std::uintptr_t>(a), of_b = reinterpret_cast<std::uintptr_t>(b);
+  return reinterpret_cast<const T*>(of_b ^ ((of_a ^ of_b) & (std::uintptr_t{0} - first)));
 }
 
 void fetch_early([[maybe_unused]] const VoxelMask& mask) {
@@ -38,7 +46,12 @@ ViewCaster::Scratch& ViewCaster::scratch() {
 }
 
 ViewCaster::ViewCaster(const VoxelMap& map, const Box& world, bool all, SimdLevel simd)
-    : map_(map), all_(all), walk_rays_(walk_rays_kernel(simd)), memory_(scratch()) {
+    : map_(map),
+      all_(all),
+      start_rays_(start_rays_kernel(simd)),
+      walk_rays_(walk_rays_kernel(simd)),
+      collect_unknown_(collect_unknown_kernel(simd)),
+      memory_(scratch()) {
   // A voxel to spare on each side, for rounding.
   const Vec3 spare = Vec3::Constant(map.resolution_m());
   first_block_ = block_index(block_key(voxel_at(world.min() - spare, map.resolution_m())));
@@ -48,6 +61,12 @@ ViewCaster::ViewCaster(const VoxelMap& map, const Box& world, bool all, SimdLeve
   memory_.number.assign(cells, kNew);
   memory_.entered.assign((cells + 63) / 64, 0);
   memory_.stops.clear();
+  const auto chunk_index = [](const VoxelIndex& block) {
+    return VoxelIndex(block.unaryExpr([](int b) { return b >> BlockDirectory::kChunkShift; }));
+  };
+  first_chunk_ = chunk_index(first_block_);
+  chunks_ = chunk_index(last) - first_chunk_ + VoxelIndex::Ones();
+  memory_.chunks.assign(static_cast<std::size_t>(chunks_.cast<std::int64_t>().prod()), nullptr);
 }
 
 void ViewCaster::cast(const Vec3& from, std::span<const Vec3> ends, double max_unknown_m) {
@@ -61,14 +80,12 @@ void ViewCaster::cast(const Vec3& from, std::span<const Vec3> ends, double max_u
 void ViewCaster::cast_together(const Vec3& from, std::span<const Vec3> ends, double max_unknown_m) {
   std::array<Ray, RayLanes::kCount> rays;
   std::size_t most = 0, least = std::numeric_limits<std::size_t>::max();
-  for (std::size_t lane = 0; lane < RayLanes::kCount; ++lane) {
-    const Vec3& end = ends[std::min(lane, ends.size() - 1)];
-    const VoxelWalk walk(from, end, map_.resolution_m());
-    memory_.lanes.set(lane, walk, first_block_ * kBlockSide);
-    rays[lane].voxels = static_cast<std::size_t>(walk.steps) + 1;
-    rays[lane].unknown_left = unknown_voxels(walk, (end - from).norm(), max_unknown_m);
-    most = std::max(most, rays[lane].voxels);
-    least = std::min(least, rays[lane].voxels);
+  start_rays_(from, ends, map_.resolution_m(), first_block_ * kBlockSide, memory_.lanes);
+  for (std::size_t lane = 0; lane < ends.size(); ++lane) {
+    const std::size_t voxels = static_cast<std::size_t>(memory_.lanes.steps[lane]) + 1;
+    rays[lane] = {voxels, unknown_voxels(voxels, (ends[lane] - from).norm(), max_unknown_m)};
+    most = std::max(most, voxels);
+    least = std::min(least, voxels);
   }
   if (most > 64 * least) {  // they cannot go together
     for (const Vec3& end : ends) cast_together(from, std::span(&end, 1), max_unknown_m);
@@ -76,142 +93,197 @@ void ViewCaster::cast_together(const Vec3& from, std::span<const Vec3> ends, dou
   }
   make_room(most);
   walk_rays_(memory_.lanes, most,
-             {memory_.at.front().items.data(), memory_.offset.front().items.data(),
-              memory_.enters.data()});
-  const std::size_t words = turn_enters(memory_.enters.data(), most, memory_.turned.data());
+             {memory_.at.front().items.data(), memory_.slice.data(),
+              memory_.run.front().items.data(), memory_.leaves_slice.data(),
+              memory_.leaves_block.data()});
+  turn_to_rows(memory_.leaves_slice.data(), most, memory_.slice_ends.data());
+  const std::size_t words =
+      turn_to_rows(memory_.leaves_block.data(), most, memory_.block_ends.data());
   // All blocks the rays could come to, before any is followed: their memory is fetched meanwhile.
-  std::array<std::span<const OnTheWay>, RayLanes::kCount> ways;
-  OnTheWay* next = memory_.way.data();
+  std::array<MetBlock**, RayLanes::kCount> ways;
+  MetBlock** next = memory_.way.data();
   for (std::size_t lane = 0; lane < ends.size(); ++lane) {
-    const std::size_t blocks = find_way(lane, rays[lane].voxels, words, next);
-    ways[lane] = {next, blocks};
-    next += blocks + 1;
+    close_row(lane, rays[lane].voxels, words);
+    ways[lane] = next;
+    next += find_way(lane, words, next);
   }
   look_up_new();
-  for (std::size_t lane = 0; lane < ends.size(); ++lane) follow(lane, ways[lane], rays[lane]);
+  for (std::size_t lane = 0; lane < ends.size(); ++lane) {
+    const std::size_t left = rays[lane].unknown_left;
+    if (left < rays[lane].voxels) {
+      follow<true>(lane, words, ways[lane], left);
+    } else {
+      follow<false>(lane, words, ways[lane], left);
+    }
+  }
 }
 
 void ViewCaster::make_room(std::size_t voxels) {
   const std::size_t steps = (voxels + 7) / 8 * 8;
-  const std::size_t most_blocks = RayLanes::kCount * (steps + 1);
+  const std::size_t most_blocks = RayLanes::kCount * steps;
   if (memory_.at.size() < steps) {
     memory_.at.resize(steps);
-    memory_.offset.resize(steps / 4 + 1);
-    memory_.enters.resize(steps);
-    memory_.turned.resize(RayLanes::kCount * (steps / 64 + 1));
+    memory_.run.resize(steps);
+    memory_.slice.resize(steps * RayLanes::kCount);
+    memory_.leaves_slice.resize(steps);
+    memory_.leaves_block.resize(steps);
+    memory_.slice_ends.resize(RayLanes::kCount * (steps / 64 + 1));
+    memory_.block_ends.resize(RayLanes::kCount * (steps / 64 + 1));
     memory_.way.resize(most_blocks);
   }
-  const std::size_t met = met_ + most_blocks + 1;
-  if (memory_.keys.size() < met) {
-    memory_.keys.resize(2 * met);
-    memory_.seen.resize(2 * met);
-    memory_.crossed.resize(2 * met);
+  const std::size_t met = met_ + most_blocks + 2;
+  if (memory_.met.size() < met) memory_.met.resize(2 * met);
+}
+
+// The last voxel ends a run, and nothing comes after it.
+void ViewCaster::close_row(std::size_t lane, std::size_t voxels, std::size_t words) {
+  const std::size_t last = (voxels - 1) / 64;
+  const std::uint64_t end = std::uint64_t{1} << ((voxels - 1) % 64);
+  for (auto* rows : {&memory_.slice_ends, &memory_.block_ends}) {
+    std::uint64_t* const row = rows->data() + lane * words;
+    row[last] = (row[last] & (end - 1)) | end;
+    for (std::size_t word = last + 1; word < words; ++word) row[word] = 0;
   }
 }
 
-// All blocks a ray could come to. Returns how many they are; one more says where the last one ends.
-// No branch on what is new: it would be mispredicted.
-std::size_t ViewCaster::find_way(std::size_t lane, std::size_t voxels, std::size_t words,
-                                 OnTheWay* way) {
-  const std::uint64_t* const enters = memory_.turned.data() + lane * words;
-  const RayLanes::Row<PackedVoxel>* const at = memory_.at.data();
-  BlockKey* const keys = memory_.keys.data();
+// All blocks a ray could come to; returns how many they are. No branch on what is new: it would be
+// mispredicted.
+std::size_t ViewCaster::find_way(std::size_t lane, std::size_t words, MetBlock** way) {
+  const std::uint64_t* const ends = memory_.block_ends.data() + lane * words;
+  const PackedVoxel* at = &memory_.at.front().items[lane];
+  MetBlock* const blocks = memory_.met.data();
   std::uint32_t* const numbers = memory_.number.data();
-  const BlockKey first = key_of(first_block_);
   const auto row = static_cast<std::uint32_t>(blocks_.x());
   const auto layer = static_cast<std::uint32_t>(blocks_.x() * blocks_.y());
+  MetBlock** const begin = way;
   std::uint32_t met = met_;
-  std::size_t blocks = 0;
-  for (std::size_t word = 0; 64 * word < voxels; ++word) {
-    std::uint64_t bits = enters[word];
-    if (voxels - 64 * word < 64) bits &= (std::uint64_t{1} << (voxels - 64 * word)) - 1;
-    for (; bits != 0; bits &= bits - 1) {
-      const std::size_t step = 64 * word + static_cast<std::size_t>(std::countr_zero(bits));
-      const BlockKey block = packed_voxel::block_of(at[step].items[lane]);
-      const std::uint32_t cell = packed_voxel::field<0>(block) +
-                                 packed_voxel::field<1>(block) * row +
-                                 packed_voxel::field<2>(block) * layer;
-      keys[met + 1] = first + block;
+  for (std::size_t word = 0; word < words; ++word, at += 64 * RayLanes::kCount) {
+    for (std::uint64_t bits = ends[word]; bits != 0; bits &= bits - 1) {
+      const auto step = static_cast<std::size_t>(std::countr_zero(bits));
+      const BlockKey place = packed_voxel::block_of(at[step * RayLanes::kCount]);
+      const std::uint32_t cell = packed_voxel::field<0>(place) +
+                                 packed_voxel::field<1>(place) * row +
+                                 packed_voxel::field<2>(place) * layer;
+      blocks[met + 1].place = place;
+      blocks[met + 1].cell = cell;
       const std::uint32_t before = numbers[cell];
-      met += before == kNew ? 1 : 0;
-      const std::uint32_t number = before == kNew ? met : before;
+      const std::uint32_t is_new = before == kNew ? 1 : 0;
+      met += is_new;
+      const std::uint32_t number = before | (met & (0 - is_new));
       numbers[cell] = number;
-      way[blocks++] = {static_cast<std::uint32_t>(step), cell, number};
+      *way++ = blocks + number;
     }
   }
   met_ = met;
-  way[blocks].step = static_cast<std::uint32_t>(voxels);
-  return blocks;
+  return static_cast<std::size_t>(way - begin);
 }
 
-// The blocks numbered since the last time.
+// The blocks numbered since the last time. No branch on what they are: it would be mispredicted.
 void ViewCaster::look_up_new() {
-  for (; looked_up_ < met_; ++looked_up_) {
-    const std::uint32_t number = looked_up_ + 1;
-    const Seen seen = look_up(memory_.keys[number]);
-    fetch_early(*seen.observed);
-    fetch_early(*seen.occupied);
-    memory_.seen[number] = seen;
-    memory_.crossed[number] = {};
-  }
-}
-
-ViewCaster::Seen ViewCaster::look_up(BlockKey key) {
-  if (BlockDirectory::chunk_key(key) != chunk_key_) {
-    chunk_key_ = BlockDirectory::chunk_key(key);
-    chunk_ = map_.chunk(key);
-  }
-  const Seen unknown{&kNothing, &kNothing, nullptr};
-  if (chunk_ == nullptr) return unknown;
-  const std::size_t place = BlockDirectory::place_in_chunk(key);
-  const unsigned summary = chunk_->summaries[place];
+  static const BlockDirectory::Chunk kEmpty;
   constexpr unsigned kRelevant = BlockSummary::kComplete | BlockSummary::kOccupied;
-  if (!all_ && (summary & kRelevant) == BlockSummary::kComplete) {
-    return {&kEverything, &kNothing, nullptr};
+  const bool some = map_.observed_voxels() != 0;  // so there is a slot 0
+  const BlockKey first = key_of(first_block_);
+  const BlockKey in_chunk = first - BlockDirectory::chunk_key(first);
+  const auto row = static_cast<std::uint32_t>(chunks_.x());
+  const auto layer = static_cast<std::uint32_t>(chunks_.x() * chunks_.y());
+  const BlockDirectory::Chunk** const chunks = memory_.chunks.data();
+  MetBlock* const end = memory_.met.data() + met_ + 1;
+  for (MetBlock* block = memory_.met.data() + looked_up_ + 1; block != end; ++block) {
+    const BlockKey place = block->place + in_chunk;  // from the first chunk's first block
+    const std::uint32_t cell = packed_voxel::field<0>(place) / 4 +
+                               packed_voxel::field<1>(place) / 4 * row +
+                               packed_voxel::field<2>(place) / 4 * layer;
+    if (chunks[cell] == nullptr) [[unlikely]] {
+      chunks[cell] = map_.chunk(first + block->place);
+      if (chunks[cell] == nullptr) chunks[cell] = &kEmpty;
+    }
+    const BlockDirectory::Chunk& chunk = *chunks[cell];
+    const std::size_t in = BlockDirectory::place_in_chunk(place);
+    const unsigned summary = chunk.summaries[in];
+    const std::uint32_t slot = chunk.slots[in];
+    const bool there = slot != BlockDirectory::kFree;
+    const bool clear = !all_ & ((summary & kRelevant) == BlockSummary::kComplete);
+    const bool stops = (summary & BlockSummary::kOccupied) != 0;
+    const BlockMasks* const known =
+        some ? &map_.block_in_slot(slot & (0 - std::uint32_t{there})) : &kNoMasks;
+    block->observed = choose(clear, &kEverything, choose(there, &known->observed, &kNothing));
+    block->occupied = choose(stops, &known->occupied, &kNothing);
+    block->known = choose<BlockMasks>(there, known, nullptr);
+    block->crossed = {};
+    fetch_early(*block->observed);
+    fetch_early(*block->occupied);
   }
-  if (chunk_->slots[place] == BlockDirectory::kFree) return unknown;
-  const BlockMasks& known = map_.block_in_slot(chunk_->slots[place]);
-  const bool stops = (summary & BlockSummary::kOccupied) != 0;
-  return {&known.observed, stops ? &known.occupied : &kNothing, &known};
+  looked_up_ = met_;
 }
 
-void ViewCaster::follow(std::size_t lane, std::span<const OnTheWay> way, Ray ray) {
-  const std::uint16_t* const offsets = memory_.offset.front().items.data() + lane;
-  for (const OnTheWay& block : way) {
-    memory_.entered[block.cell >> 6] |= std::uint64_t{1} << (block.cell & 63);
-    if (memory_.seen[block.number].observed == &kEverything) continue;
-    const std::uint32_t end = (&block + 1)->step;  // the last one has one behind it
-    if (!walk_in_block(block.number, offsets + block.step * RayLanes::kCount, end - block.step,
-                       ray.unknown_left)) {
+// Slice by slice, up to the end or to where something stops the ray. Clear blocks are not told from
+// the others: nothing is new or in the way there. kLimited: it may end for crossing too much
+// unknown space.
+template <bool kLimited>
+void ViewCaster::follow(std::size_t lane, std::size_t words, MetBlock* const* way,
+                        std::size_t unknown_left) {
+  const std::uint64_t* const slice_ends = memory_.slice_ends.data() + lane * words;
+  const std::uint64_t* const block_ends = memory_.block_ends.data() + lane * words;
+  const std::uint64_t* runs = &memory_.run.front().items[lane];
+  const std::uint8_t* slices = &memory_.slice[lane];
+  MetBlock* const* block = way;
+  bool ends = false;
+  for (std::size_t word = 0; word < words && !ends; ++word) {
+    const std::uint64_t leaves = block_ends[word];
+    for (std::uint64_t bits = slice_ends[word]; bits != 0; bits &= bits - 1) {
+      const auto step = static_cast<std::size_t>(std::countr_zero(bits));
+      const std::uint64_t run = runs[step * RayLanes::kCount];
+      const std::size_t slice = slices[step * RayLanes::kCount];
+      MetBlock& here = **block;
+      bool stops = (run & here.occupied->slices[slice]) != 0;
+      if constexpr (kLimited) {
+        const auto count =
+            static_cast<std::size_t>(std::popcount(run & ~here.observed->slices[slice]));
+        stops |= count >= unknown_left;
+        unknown_left -= stops ? 0 : count;
+      }
+      if (stops) [[unlikely]] {
+        end_in_run(lane, 64 * word + step, here, unknown_left);
+        ++block;
+        ends = true;
+        break;
+      }
+      here.crossed.slices[slice] |= run;
+      block += leaves >> step & 1;
+    }
+    runs += 64 * RayLanes::kCount;
+    slices += 64 * RayLanes::kCount;
+  }
+  std::uint64_t* const entered = memory_.entered.data();
+  for (; way != block; ++way) entered[(*way)->cell >> 6] |= std::uint64_t{1} << ((*way)->cell & 63);
+}
+
+// The run up to `step`, voxel by voxel: somewhere here the ray may end.
+void ViewCaster::end_in_run(std::size_t lane, std::size_t step, MetBlock& block,
+                            std::size_t unknown_left) {
+  const std::size_t slice = memory_.slice[step * RayLanes::kCount + lane];
+  const std::uint64_t observed = block.observed->slices[slice];
+  const std::uint64_t occupied = block.occupied->slices[slice];
+  std::uint64_t& crossed = block.crossed.slices[slice];
+  std::size_t begin = step;
+  while (begin > 0 && (memory_.leaves_slice[begin - 1] >> lane & 1) == 0) --begin;
+  std::uint64_t before = 0;
+  for (std::size_t i = begin; i <= step; ++i) {
+    const std::uint64_t bit = memory_.run[i].items[lane] & ~before;
+    before |= bit;
+    if ((occupied & bit) != 0) {
+      if (all_) stop_at(block, slice, bit);
       return;
     }
+    crossed |= bit;
+    unknown_left -= (observed & bit) == 0 ? 1 : 0;
+    if (unknown_left == 0) return;
   }
 }
 
-// False: the ray ends here.
-bool ViewCaster::walk_in_block(std::uint32_t number, const std::uint16_t* offsets,
-                               std::size_t voxels, std::size_t& unknown_left) {
-  const VoxelMask& observed = *memory_.seen[number].observed;
-  const VoxelMask& occupied = *memory_.seen[number].occupied;
-  VoxelMask& crossed = memory_.crossed[number];
-  std::size_t left = unknown_left;
-  for (std::size_t i = 0; i < voxels; ++i) {
-    const std::size_t offset = offsets[i * RayLanes::kCount];
-    const std::size_t slice = offset >> 6;
-    const std::uint64_t bit = std::uint64_t{1} << (offset & 63);
-    if ((occupied.slices[slice] & bit) != 0) {
-      if (all_) stop_at(number, slice, bit);
-      return false;
-    }
-    crossed.slices[slice] |= bit;
-    left -= (observed.slices[slice] & bit) == 0;
-    if (left == 0) return false;
-  }
-  unknown_left = left;
-  return true;
-}
-
-void ViewCaster::stop_at(std::uint32_t number, std::size_t slice, std::uint64_t bit) {
+void ViewCaster::stop_at(const MetBlock& block, std::size_t slice, std::uint64_t bit) {
+  const auto number = static_cast<std::size_t>(&block - memory_.met.data());
   if (memory_.stops.size() <= number) memory_.stops.resize(met_ + 1);
   memory_.stops[number].slices[slice] |= bit;
 }
@@ -233,39 +305,28 @@ std::span<const std::uint32_t> ViewCaster::entered() const {
 
 ViewCast ViewCaster::result() const {
   const std::span<const std::uint32_t> numbers = entered();
-  ViewCast cast;
-  cast.touched.resize(numbers.size());
-  memory_.found.resize(std::max(memory_.found.size(), numbers.size() + 1));
-  std::size_t found = 0;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const BlockKey key = memory_.keys[numbers[i]];
-    const VoxelMask& crossed = memory_.crossed[numbers[i]];
-    const VoxelMask& observed = *memory_.seen[numbers[i]].observed;
-    VoxelSet::Block& block = memory_.found[found];
-    std::uint64_t any = 0;
-    for (std::size_t z = 0; z < kBlockSide; ++z) {
-      const std::uint64_t unknown = crossed.slices[z] & ~observed.slices[z];
-      block.mask.slices[z] = unknown;
-      any |= unknown;
-    }
-    block.key = key;
-    cast.touched[i] = key;
-    found += any != 0 ? 1 : 0;  // no branch: it would be mispredicted
+  if (memory_.found_keys.size() <= met_) {
+    memory_.found_keys.resize(2 * met_ + 1);
+    memory_.found_places.resize(kBlockSide * memory_.found_keys.size());
+    memory_.found_words.resize(kBlockSide * memory_.found_keys.size());
   }
-  const auto first = memory_.found.begin();
-  cast.unknown = VoxelSet::of_sorted({first, first + static_cast<std::ptrdiff_t>(found)});
-  return cast;
+  const SliceRoom found{memory_.found_keys.data(), memory_.found_places.data(),
+                        memory_.found_words.data()};
+  const SliceCount count =
+      collect_unknown_(numbers, memory_.met.data(), key_of(first_block_), found);
+  return {VoxelSet({found.keys, count.blocks}, {found.places, count.words},
+                   {found.words, count.words}),
+          BlockSet(first_block_, blocks_, memory_.entered)};
 }
 
 SeenVoxels ViewCaster::all() const {
   SeenVoxels seen;
   std::vector<VoxelSet::Block> unknown, free, occupied, roi;
   for (const std::uint32_t number : entered()) {
-    const BlockKey key = memory_.keys[number];
-    const VoxelMask& crossed = memory_.crossed[number];
-    seen.touched.push_back(key);
+    const BlockKey key = key_of(first_block_) + memory_.met[number].place;
+    const VoxelMask& crossed = memory_.met[number].crossed;
     VoxelMask not_known = crossed;
-    if (const BlockMasks* masks = memory_.seen[number].known; masks != nullptr) {
+    if (const BlockMasks* masks = memory_.met[number].known; masks != nullptr) {
       not_known -= masks->observed;
       VoxelMask known = crossed;
       known &= masks->observed;
@@ -279,6 +340,7 @@ SeenVoxels ViewCaster::all() const {
     }
     unknown.push_back({key, not_known});
   }
+  seen.touched = BlockSet(first_block_, blocks_, memory_.entered);
   seen.unknown = VoxelSet(std::move(unknown));
   seen.free = VoxelSet(std::move(free));
   seen.occupied = VoxelSet(std::move(occupied));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "canopeer/map/ray_kernels.h"
+#include "canopeer/map/slice_kernels.h"
 #include "canopeer/map/view_cast.h"
 
 namespace canopeer {
@@ -27,63 +28,57 @@ class ViewCaster {
  private:
   static constexpr std::uint32_t kNew = 0;
 
-  // What a ray meets in a block.
-  struct Seen {
-    const VoxelMask* observed;  // of a clear block (nothing to find, nothing in the way) kClear
-    const VoxelMask* occupied;  // never nullptr
-    const BlockMasks* known;    // nullptr: nothing observed there
-  };
-  struct alignas(64) Crossed : VoxelMask {};
   struct Ray {
     std::size_t voxels;        // it crosses
     std::size_t unknown_left;  // it may still cross
-  };
-  // A block on a ray's way, and the ray's first step there.
-  struct OnTheWay {
-    std::uint32_t step, cell, number;
   };
   // Memory that a thread uses again from view to view. Blocks met are numbered from 1.
   struct Scratch {
     std::vector<std::uint32_t> number;   // per cell: kNew, or the block's number
     std::vector<std::uint64_t> entered;  // per cell a bit: some ray came here
-    std::vector<BlockKey> keys;          // per number, as the next three
-    std::vector<Seen> seen;
-    std::vector<Crossed> crossed;  // voxels crossed before an occupied one; none of clear blocks
-    std::vector<VoxelMask> stops;  // where rays stopped; only for all_
+    std::vector<const BlockDirectory::Chunk*> chunks;  // nullptr: not asked for yet
+    std::vector<MetBlock> met;                         // per number
+    std::vector<VoxelMask> stops;  // per number, where rays stopped; only for all_
     std::vector<std::uint32_t> in_order;
-    std::vector<VoxelSet::Block> found;
+    // What is unknown of it.
+    std::vector<BlockKey> found_keys;
+    std::vector<std::uint32_t> found_places;
+    std::vector<std::uint64_t> found_words;
     // Of the rays being cast.
     RayLanes lanes;
     std::vector<RayLanes::Row<PackedVoxel>> at;
-    std::vector<RayLanes::Row<std::uint16_t>> offset;
-    std::vector<std::uint8_t> enters;
-    std::vector<std::uint64_t> turned;  // the same, a row of bits a lane
-    std::vector<OnTheWay> way;
+    std::vector<RayLanes::Row<std::uint64_t>> run;
+    std::vector<std::uint8_t> slice;
+    std::vector<std::uint8_t> leaves_slice, leaves_block;
+    std::vector<std::uint64_t> slice_ends, block_ends;  // the same, a row of bits a lane
+    std::vector<MetBlock*> way;  // the blocks each could come to
   };
   static Scratch& scratch();
 
   void cast_together(const Vec3& from, std::span<const Vec3> ends, double max_unknown_m);
   void make_room(std::size_t voxels);
-  std::size_t find_way(std::size_t lane, std::size_t voxels, std::size_t words, OnTheWay* way);
+  void close_row(std::size_t lane, std::size_t voxels, std::size_t words);
+  std::size_t find_way(std::size_t lane, std::size_t words, MetBlock** way);
   void look_up_new();
-  Seen look_up(BlockKey key);
-  void follow(std::size_t lane, std::span<const OnTheWay> way, Ray ray);
-  bool walk_in_block(std::uint32_t number, const std::uint16_t* offsets, std::size_t voxels,
-                     std::size_t& unknown_left);
-  void stop_at(std::uint32_t number, std::size_t slice, std::uint64_t bit);
+  template <bool kLimited>
+  void follow(std::size_t lane, std::size_t words, MetBlock* const* way, std::size_t unknown_left);
+  void end_in_run(std::size_t lane, std::size_t step, MetBlock& block, std::size_t unknown_left);
+  void stop_at(const MetBlock& block, std::size_t slice, std::uint64_t bit);
   // Numbers of the blocks entered, sorted by key.
   std::span<const std::uint32_t> entered() const;
 
   const VoxelMap& map_;
   bool all_;
+  StartRays start_rays_;
   WalkRays walk_rays_;
+  CollectUnknown collect_unknown_;
   VoxelIndex first_block_;
-  VoxelIndex blocks_;  // of the window, per axis
+  VoxelIndex blocks_;       // of the window, per axis
+  VoxelIndex first_chunk_;  // the same for the chunks they lie in
+  VoxelIndex chunks_;
   Scratch& memory_;
   std::uint32_t met_ = 0;        // blocks numbered
   std::uint32_t looked_up_ = 0;  // of them
-  BlockKey chunk_key_ = ~BlockKey{0};
-  const BlockDirectory::Chunk* chunk_ = nullptr;  // the last one asked for
 };
 
 }  // namespace canopeer

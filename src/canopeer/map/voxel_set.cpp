@@ -4,81 +4,72 @@
 
 namespace canopeer {
 
-VoxelSet::VoxelSet(std::vector<Block> blocks) : blocks_(std::move(blocks)) {
-  std::erase_if(blocks_, [](const Block& block) { return !block.mask.any(); });
-  const auto by_key = [](const Block& a, const Block& b) { return a.key < b.key; };
-  if (!std::is_sorted(blocks_.begin(), blocks_.end(), by_key)) {
-    std::sort(blocks_.begin(), blocks_.end(), by_key);
+VoxelSet::VoxelSet(std::vector<Block> blocks) {
+  std::sort(blocks.begin(), blocks.end(),
+            [](const Block& a, const Block& b) { return a.key < b.key; });
+  for (const Block& block : blocks) {
+    for (std::uint32_t z = 0; z < kBlockSide; ++z) append({block.key, z}, block.mask.slices[z]);
   }
-  for (const Block& block : blocks_) count_ += block.mask.count();
 }
 
-VoxelSet VoxelSet::of_sorted(std::vector<Block> blocks) {
-  VoxelSet set;
-  set.blocks_ = std::move(blocks);
-  for (const Block& block : set.blocks_) set.count_ += block.mask.count();
-  return set;
+// Slices come in ascending order.
+void VoxelSet::append(const Slice& slice, std::uint64_t word) {
+  if (word == 0) return;
+  if (keys_.empty() || keys_.back() != slice.first) keys_.push_back(slice.first);
+  places_.push_back(static_cast<std::uint32_t>(keys_.size() - 1) * kBlockSide + slice.second);
+  words_.push_back(word);
+}
+
+std::int64_t VoxelSet::count() const {
+  std::int64_t count = 0;
+  for (const std::uint64_t word : words_) count += std::popcount(word);
+  return count;
 }
 
 bool VoxelSet::contains(const VoxelIndex& voxel) const {
-  const BlockKey key = block_key(voxel);
-  const auto it = std::lower_bound(blocks_.begin(), blocks_.end(), key,
-                                   [](const Block& block, BlockKey k) { return block.key < k; });
-  return it != blocks_.end() && it->key == key && it->mask.test(voxel);
+  const auto key = std::lower_bound(keys_.begin(), keys_.end(), block_key(voxel));
+  if (key == keys_.end() || *key != block_key(voxel)) return false;
+  const auto place = static_cast<std::uint32_t>((key - keys_.begin()) * kBlockSide +
+                                                VoxelMask::slice_of(voxel));
+  const auto found = std::lower_bound(places_.begin(), places_.end(), place);
+  if (found == places_.end() || *found != place) return false;
+  return (words_[static_cast<std::size_t>(found - places_.begin())] & VoxelMask::bit_of(voxel)) != 0;
 }
 
-// In place: blocks both have take the other's bits; room for the rest is made from the back. Only
-// what both have is counted.
+// `take(slice, its word in a, its word in b)`, in ascending order.
+template <typename Take>
+void VoxelSet::walk_both(const VoxelSet& a, const VoxelSet& b, Take&& take) {
+  constexpr Slice kEnd{~BlockKey{0}, 0};
+  std::size_t i = 0, j = 0;
+  while (i < a.words_.size() || j < b.words_.size()) {
+    const Slice of_a = i < a.words_.size() ? a.slice(i) : kEnd;
+    const Slice of_b = j < b.words_.size() ? b.slice(j) : kEnd;
+    take(std::min(of_a, of_b), of_a <= of_b ? a.words_[i++] : 0,
+         of_b <= of_a ? b.words_[j++] : 0);
+  }
+}
+
 void VoxelSet::merge(const VoxelSet& other) {
-  std::size_t missing = 0;
-  count_ += other.count_;
-  std::size_t i = 0;
-  for (const Block& block : other.blocks_) {
-    while (i < blocks_.size() && blocks_[i].key < block.key) ++i;
-    if (i == blocks_.size() || blocks_[i].key != block.key) {
-      ++missing;
-      continue;
-    }
-    VoxelMask common = block.mask;
-    common &= blocks_[i].mask;
-    count_ -= common.count();
-    blocks_[i].mask |= block.mask;
-  }
-  if (missing == 0) return;
-  std::size_t a = blocks_.size();
-  std::size_t b = other.blocks_.size();
-  std::size_t out = a + missing;
-  blocks_.resize(out);
-  while (out > a) {
-    if (a > 0 && blocks_[a - 1].key >= other.blocks_[b - 1].key) {
-      if (blocks_[a - 1].key == other.blocks_[b - 1].key) --b;
-      blocks_[--out] = blocks_[--a];
-    } else {
-      blocks_[--out] = other.blocks_[--b];
-    }
-  }
+  VoxelSet both;
+  walk_both(*this, other, [&](const Slice& slice, std::uint64_t mine, std::uint64_t theirs) {
+    both.append(slice, mine | theirs);
+  });
+  *this = std::move(both);
 }
 
 void VoxelSet::subtract(const VoxelSet& other) {
-  auto b = other.blocks_.begin();
-  count_ = 0;
-  for (Block& block : blocks_) {
-    while (b != other.blocks_.end() && b->key < block.key) ++b;
-    if (b != other.blocks_.end() && b->key == block.key) block.mask -= b->mask;
-    count_ += block.mask.count();
-  }
-  std::erase_if(blocks_, [](const Block& block) { return !block.mask.any(); });
+  VoxelSet rest;
+  walk_both(*this, other, [&](const Slice& slice, std::uint64_t mine, std::uint64_t theirs) {
+    rest.append(slice, mine & ~theirs);
+  });
+  *this = std::move(rest);
 }
 
 std::int64_t VoxelSet::count_new(const VoxelSet& other) const {
   std::int64_t fresh = 0;
-  auto a = blocks_.begin();
-  for (const Block& block : other.blocks_) {
-    while (a != blocks_.end() && a->key < block.key) ++a;
-    VoxelMask mask = block.mask;
-    if (a != blocks_.end() && a->key == block.key) mask -= a->mask;
-    fresh += mask.count();
-  }
+  walk_both(*this, other, [&](const Slice&, std::uint64_t mine, std::uint64_t theirs) {
+    fresh += std::popcount(theirs & ~mine);
+  });
   return fresh;
 }
 

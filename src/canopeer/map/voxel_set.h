@@ -1,6 +1,8 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -8,23 +10,27 @@
 
 namespace canopeer {
 
-/// A set of voxels as bit masks of the blocks they lie in: union is an OR, size a popcount.
+/// A set of voxels as words of 64, a slice of a block each: union is an OR, size a popcount. Slices
+/// without voxels are not kept; in what a view sees they are five of eight.
 class VoxelSet {
  public:
   struct Block {
     BlockKey key = 0;
     VoxelMask mask;
-    friend bool operator==(const Block&, const Block&) = default;
   };
 
   VoxelSet() = default;
-  /// Blocks with empty masks are dropped; no key twice, any order.
+  /// Any order, no key twice; masks may be empty.
   explicit VoxelSet(std::vector<Block> blocks);
-  /// The same of blocks sorted by key, none of them empty.
-  static VoxelSet of_sorted(std::vector<Block> blocks);
+  /// As keys(), places() and words() give them.
+  VoxelSet(std::span<const BlockKey> keys, std::span<const std::uint32_t> places,
+           std::span<const std::uint64_t> words)
+      : keys_(keys.begin(), keys.end()),
+        places_(places.begin(), places.end()),
+        words_(words.begin(), words.end()) {}
 
-  [[nodiscard]] std::int64_t count() const { return count_; }
-  [[nodiscard]] bool empty() const { return count_ == 0; }
+  [[nodiscard]] std::int64_t count() const;
+  [[nodiscard]] bool empty() const { return words_.empty(); }
   [[nodiscard]] bool contains(const VoxelIndex& voxel) const;
   /// Adds the voxels of `other`.
   void merge(const VoxelSet& other);
@@ -39,19 +45,36 @@ class VoxelSet {
     for_each([&](const VoxelIndex& voxel) { sum += weight(voxel); });
     return sum;
   }
-  /// Sorted by key, no mask empty.
-  [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }
+
+  /// The blocks with voxels of the set, ascending.
+  [[nodiscard]] std::span<const BlockKey> keys() const { return keys_; }
+  /// words()[i] is slice places()[i] % 8 of block keys()[places()[i] / 8]; ascending, no word is 0.
+  [[nodiscard]] std::span<const std::uint32_t> places() const { return places_; }
+  [[nodiscard]] std::span<const std::uint64_t> words() const { return words_; }
 
   /// `visit(VoxelIndex)`, sorted by block, then z, y, x.
   template <typename Visit>
   void for_each(Visit&& visit) const {
-    for (const Block& block : blocks_) for_each_voxel(block.key, block.mask, visit);
+    for (std::size_t i = 0; i < words_.size(); ++i) {
+      VoxelMask mask;
+      mask.slices[places_[i] % kBlockSide] = words_[i];
+      for_each_voxel(keys_[places_[i] / kBlockSide], mask, visit);
+    }
   }
-  friend bool operator==(const VoxelSet& a, const VoxelSet& b) { return a.blocks_ == b.blocks_; }
+  friend bool operator==(const VoxelSet&, const VoxelSet&) = default;
 
  private:
-  std::vector<Block> blocks_;
-  std::int64_t count_ = 0;
+  using Slice = std::pair<BlockKey, std::uint32_t>;
+  [[nodiscard]] Slice slice(std::size_t i) const {
+    return {keys_[places_[i] / kBlockSide], places_[i] % kBlockSide};
+  }
+  template <typename Take>
+  static void walk_both(const VoxelSet& a, const VoxelSet& b, Take&& take);
+  void append(const Slice& slice, std::uint64_t word);
+
+  std::vector<BlockKey> keys_;
+  std::vector<std::uint32_t> places_;
+  std::vector<std::uint64_t> words_;
 };
 
 }  // namespace canopeer

@@ -1,6 +1,6 @@
 #include "canopeer/map/voxel_union.h"
 
-#include <algorithm>
+#include <bit>
 
 namespace canopeer {
 
@@ -39,25 +39,31 @@ void VoxelUnion::clear() {
 }
 
 void VoxelUnion::add(const VoxelSet& set) {
-  const std::size_t most = count_ + set.blocks().size();
+  const std::size_t most = count_ + set.keys().size();
   while (most > numbers_.size() / 2) grow();
   if (most > masks_.size()) {
     masks_.resize(2 * most);
     keys_.resize(2 * most);
   }
-  for (const VoxelSet::Block& block : set.blocks()) {
-    std::uint32_t& place = numbers_[home(block.key)];
+  of_set_.resize(set.keys().size());
+  std::uint32_t* of_set = of_set_.data();
+  for (const BlockKey key : set.keys()) {
+    std::uint32_t& place = numbers_[home(key)];
     // No branch on whether the block is new: it would be mispredicted.
     const bool is_new = place == kNone;
     std::uint32_t number = is_new ? count_ : place;
-    if (!is_new & (keys_[number] != block.key)) [[unlikely]] {
-      number = find_beside(block.key);
+    if (!is_new & (keys_[number] != key)) [[unlikely]] {
+      number = find_beside(key);
     } else {
       place = number;
-      keys_[number] = block.key;
+      keys_[number] = key;
       count_ += is_new ? 1 : 0;
     }
-    masks_[number] |= block.mask;
+    *of_set++ = number;
+  }
+  for (std::size_t i = 0; i < set.words().size(); ++i) {
+    const std::uint32_t place = set.places()[i];
+    masks_[of_set_[place / kBlockSide]].slices[place % kBlockSide] |= set.words()[i];
   }
 }
 
@@ -70,14 +76,15 @@ std::int64_t VoxelUnion::count() const {
 std::int64_t VoxelUnion::count_new(const VoxelSet& set) const {
   static constexpr Mask kNothing{};
   std::int64_t fresh = 0;
-  for (const VoxelSet::Block& block : set.blocks()) {
-    std::uint32_t number = numbers_[home(block.key)];
-    if (number != kNone && keys_[number] != block.key) [[unlikely]] {
-      number = numbers_[place_of(block.key)];
+  std::size_t i = 0;
+  for (std::size_t block = 0; block < set.keys().size(); ++block) {
+    const BlockKey key = set.keys()[block];
+    std::uint32_t number = numbers_[home(key)];
+    if (number != kNone && keys_[number] != key) [[unlikely]] number = numbers_[place_of(key)];
+    const Mask& mask = number == kNone ? kNothing : masks_[number];
+    for (; i < set.words().size() && set.places()[i] / kBlockSide == block; ++i) {
+      fresh += std::popcount(set.words()[i] & ~mask.slices[set.places()[i] % kBlockSide]);
     }
-    VoxelMask left = block.mask;
-    left -= number == kNone ? kNothing : masks_[number];
-    fresh += left.count();
   }
   return fresh;
 }

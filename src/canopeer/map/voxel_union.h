@@ -40,7 +40,8 @@ class VoxelUnion {
   std::vector<std::uint32_t> numbers_ = std::vector<std::uint32_t>(std::size_t{1} << 15, kNone);
   std::uint32_t count_ = 0;  // of blocks
   std::vector<BlockKey> keys_;
-  std::vector<Mask> masks_;  // empty from count_ on
+  std::vector<Mask> masks_;            // empty from count_ on
+  std::vector<std::uint32_t> of_set_;  // the numbers of the blocks of the set being added
 };
 
 }  // namespace canopeer

@@ -6,39 +6,55 @@
 namespace canopeer {
 
 CellUnion::Prepared CellUnion::prepare(const VoxelSet& set) {
-  make_room(set);
-  scratch_.places.resize(kBlockSide * set.blocks().size());
-  scratch_.words.resize(kBlockSide * set.blocks().size());
-  std::uint32_t* const places = scratch_.places.data();
-  std::uint64_t* const words = scratch_.words.data();
-  std::size_t kept = 0;
-  for (const auto& block : set.blocks()) {
-    std::uint32_t& number = number_[cell(block_index(block.key))];
-    if (number == kNew) number = count_++;
-    for (std::uint32_t slice = 0; slice < kBlockSide; ++slice) {
-      // No branch on what is in the slice: it would be mispredicted.
-      places[kept] = number * kBlockSide + slice;
-      words[kept] = block.mask.slices[slice];
-      kept += words[kept] != 0 ? 1 : 0;
-    }
+  if (!find_cells(set)) {
+    make_room(set);
+    find_cells(set);
+  }
+  Prepared prepared{std::vector<std::uint32_t>(set.keys().size()),
+                    {set.places().begin(), set.places().end()}};
+  for (std::size_t i = 0; i < prepared.blocks.size(); ++i) {
+    // No branch on what is new: it would be mispredicted.
+    std::uint32_t& number = number_[cells_[i]];
+    const bool is_new = number == kNew;
+    number = is_new ? count_ : number;
+    prepared.blocks[i] = number;
+    count_ += is_new ? 1 : 0;
   }
   words_.resize(std::size_t{count_} * kBlockSide);
-  return {.places = {places, places + kept}, .words = {words, words + kept}};
+  for (std::uint32_t& place : prepared.places) {
+    place = prepared.blocks[place / kBlockSide] * kBlockSide + place % kBlockSide;
+  }
+  return prepared;
+}
+
+// Returns whether all blocks of the set lie in the window.
+bool CellUnion::find_cells(const VoxelSet& set) {
+  cells_.resize(set.keys().size());
+  std::uint32_t* cells = cells_.data();
+  bool room = true;
+  for (const BlockKey key : set.keys()) {
+    const VoxelIndex at = block_index(key) - first_;
+    const auto x = static_cast<std::uint32_t>(at.x()), y = static_cast<std::uint32_t>(at.y()),
+               z = static_cast<std::uint32_t>(at.z());
+    const auto columns = static_cast<std::uint32_t>(blocks_.x()),
+               rows = static_cast<std::uint32_t>(blocks_.y()),
+               layers = static_cast<std::uint32_t>(blocks_.z());
+    room &= (x < columns) & (y < rows) & (z < layers);
+    *cells++ = (z * rows + y) * columns + x;
+  }
+  return room;
 }
 
 // A larger window than the set needs, so that few sets make it grow.
 void CellUnion::make_room(const VoxelSet& set) {
-  if (set.empty()) return;
   constexpr int kMargin = 6;
-  VoxelIndex low = block_index(set.blocks().front().key);
+  VoxelIndex low = block_index(set.keys().front());
   VoxelIndex high = low;
-  for (const auto& block : set.blocks()) {
-    const VoxelIndex at = block_index(block.key);
-    low = low.cwiseMin(at);
-    high = high.cwiseMax(at);
+  for (const BlockKey key : set.keys()) {
+    low = low.cwiseMin(block_index(key));
+    high = high.cwiseMax(block_index(key));
   }
   const VoxelIndex end = first_ + blocks_;
-  if ((low.array() >= first_.array()).all() && (high.array() < end.array()).all()) return;
 
   CellUnion larger;
   larger.first_ = low.array() - kMargin;
@@ -62,19 +78,25 @@ void CellUnion::make_room(const VoxelSet& set) {
 }
 
 void CellUnion::clear() {
-  for (const std::uint32_t place : written_) words_[place] = 0;
+  for (const std::uint32_t block : written_) {
+    std::fill_n(words_.data() + std::size_t{block} * kBlockSide, kBlockSide, std::uint64_t{0});
+  }
   written_.clear();
 }
 
-void CellUnion::add(const Prepared& set) {
-  for (std::size_t i = 0; i < set.places.size(); ++i) words_[set.places[i]] |= set.words[i];
-  written_.insert(written_.end(), set.places.begin(), set.places.end());
+void CellUnion::add(const VoxelSet& set, const Prepared& prepared) {
+  const std::uint64_t* const words = set.words().data();
+  const std::uint32_t* const places = prepared.places.data();
+  for (std::size_t i = 0; i < set.words().size(); ++i) words_[places[i]] |= words[i];
+  written_.insert(written_.end(), prepared.blocks.begin(), prepared.blocks.end());
 }
 
-std::int64_t CellUnion::count_new(const Prepared& set) const {
+std::int64_t CellUnion::count_new(const VoxelSet& set, const Prepared& prepared) const {
+  const std::uint64_t* const words = set.words().data();
+  const std::uint32_t* const places = prepared.places.data();
   std::int64_t fresh = 0;
-  for (std::size_t i = 0; i < set.places.size(); ++i) {
-    fresh += std::popcount(set.words[i] & ~words_[set.places[i]]);
+  for (std::size_t i = 0; i < set.words().size(); ++i) {
+    fresh += std::popcount(words[i] & ~words_[places[i]]);
   }
   return fresh;
 }

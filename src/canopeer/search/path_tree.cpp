@@ -14,20 +14,22 @@ PathTree::PathTree(const ViewGraph& graph, NodeId root)
 void PathTree::expand(NodeId id) {
   CANOPEER_CHECK(reached(id), "only a reached node has a path");
   covered_.clear();
-  for (NodeId n = id; n != root_; n = entry(n).from) covered_.add(cells(n));
+  for (NodeId n = id; n != root_; n = entry(n).from) covered_.add(cells(n), place(n));
   expanded_ = id;
 }
 
-const CellUnion::Prepared& PathTree::cells(NodeId id) {
+const VoxelSet& PathTree::cells(NodeId id) const { return graph_->node(id).cast->unknown; }
+
+const CellUnion::Prepared& PathTree::place(NodeId id) {
   Entry& e = entry(id);
-  if (!e.prepared) e.cells = covered_.prepare(graph_->node(id).cast->unknown);
+  if (!e.prepared) e.place = covered_.prepare(cells(id));
   e.prepared = true;
-  return e.cells;
+  return e.place;
 }
 
 PathTree::Sums PathTree::extend(NodeId id, double time_s) {
   Sums sums = entry(expanded_).sums;
-  sums.new_unknown = covered_.count_new(cells(id));
+  sums.new_unknown = covered_.count_new(cells(id), place(id));
   sums.unknown += sums.new_unknown;
   sums.time_s += time_s;
   sums.roi_views += graph_->node(id).view.kind == TargetKind::roi ? 1 : 0;

@@ -55,14 +55,16 @@ class PathTree {
     NodeId from{};
     double edge_time_s = 0.0;
     Sums sums;
-    CellUnion::Prepared cells;  ///< what the view sees
+    CellUnion::Prepared place;  ///< of what the view sees
     std::vector<NodeId> children;
   };
   [[nodiscard]] const Entry& entry(NodeId id) const {
     return entries_[static_cast<std::size_t>(id)];
   }
   Entry& entry(NodeId id) { return entries_[static_cast<std::size_t>(id)]; }
-  const CellUnion::Prepared& cells(NodeId id);
+  /// What the view sees.
+  [[nodiscard]] const VoxelSet& cells(NodeId id) const;
+  const CellUnion::Prepared& place(NodeId id);
   /// Sums of `id` behind the expanded node.
   [[nodiscard]] Sums extend(NodeId id, double time_s);
   [[nodiscard]] bool on_path(NodeId id, NodeId end) const;

@@ -75,7 +75,7 @@ class ViewGraph {
   /// True when a node stands and looks almost like `view`.
   [[nodiscard]] bool has_similar(const ViewPose& view, const SimilarityLimits& limits) const;
 
-  /// Forgets what every view touched by the changed blocks (sorted) was expected to see.
+  /// Forgets what every view touched by the changed blocks was expected to see.
   void invalidate_casts(const std::vector<BlockKey>& changed);
 
  private:
