@@ -12,6 +12,8 @@
 #include "canopeer/map/frontier_masks.h"
 #include "canopeer/map/log_odds_kernels.h"
 #include "canopeer/map/ray_kernels.h"
+#include "canopeer/map/slice_kernels.h"
+#include "canopeer/map/voxel_set.h"
 #include "same_map.h"
 
 namespace canopeer {
@@ -308,6 +310,77 @@ TEST(SimdKernels, RaysCrossTheVoxelsAPlainWalkerCrosses) {
         }
       }
     }
+  }
+}
+
+// From lattice points too, where rounding at the end has to be mended.
+TEST(SimdKernels, RaysStartAsPlainWalksDo) {
+  Rng rng(8, "starts");
+  const VoxelIndex corner = VoxelIndex::Constant(-400);
+  for (int round = 0; round < 400; ++round) {
+    const auto point = [&](double far) {
+      const auto place = [&] {
+        const double p = rng.uniform(-far, far);
+        return round % 2 == 0 ? std::round(100.0 * p) / 100.0 : p;
+      };
+      return Vec3(place(), place(), place());
+    };
+    const Vec3 from = point(0.3);
+    std::vector<Vec3> ends(1 + rng.index(RayLanes::kCount));
+    for (Vec3& end : ends) end = rng.chance(0.05) ? from : point(rng.chance(0.2) ? 0.02 : 3.0);
+    if (round % 3 == 0) ends.front().x() = from.x();
+    for (const SimdLevel level : kSimdLevels) {
+      if (level > best_simd_level()) continue;
+      RayLanes rays, expected;
+      start_rays_kernel(level)(from, ends, 0.01, corner, rays);
+      for (std::size_t lane = 0; lane < RayLanes::kCount; ++lane) {
+        const VoxelWalk walk(from, ends[std::min(lane, ends.size() - 1)], 0.01);
+        expected.set(lane, walk, corner);
+        ASSERT_EQ(rays.at[lane], expected.at[lane]) << simd_level_name(level);
+        ASSERT_EQ(rays.steps[lane], walk.steps) << simd_level_name(level);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          ASSERT_EQ(rays.t[axis][lane], walk.t_next[axis]) << simd_level_name(level);
+          ASSERT_EQ(rays.dt[axis][lane], walk.t_delta[axis]) << simd_level_name(level);
+          if (walk.t_delta[axis] == 0) continue;  // never moves so
+          ASSERT_EQ(rays.move[axis][lane], expected.move[axis][lane]) << simd_level_name(level);
+        }
+      }
+    }
+  }
+}
+
+TEST(SimdKernels, WhatIsCrossedAndUnknownIsCollectedSliceBySlice) {
+  Rng rng(9, "slices");
+  constexpr std::size_t kBlocks = 50;
+  std::vector<MetBlock> blocks(kBlocks);
+  std::vector<VoxelMask> observed(kBlocks);
+  const BlockKey first = pack_block(-3, 5, -70);
+  std::vector<std::uint32_t> numbers;
+  std::vector<VoxelSet::Block> expected;
+  for (std::uint32_t i = 0; i < kBlocks; ++i) {
+    for (std::size_t z = 0; z < kBlockSide; ++z) {
+      blocks[i].crossed.slices[z] = rng.chance(0.6) ? 0 : rng.bits();
+      observed[i].slices[z] = rng.chance(0.3) ? ~std::uint64_t{0} : rng.bits();
+    }
+    if (rng.chance(0.2)) blocks[i].crossed = {};
+    blocks[i].observed = &observed[i];
+    blocks[i].place = i;
+    if (rng.chance(0.2)) continue;
+    numbers.push_back(i);
+    expected.push_back({first + i, blocks[i].crossed});
+    expected.back().mask -= observed[i];
+  }
+  for (const SimdLevel level : kSimdLevels) {
+    if (level > best_simd_level()) continue;
+    std::vector<BlockKey> keys(kBlocks + 1);
+    std::vector<std::uint32_t> places(kBlockSide * (kBlocks + 1));
+    std::vector<std::uint64_t> words(kBlockSide * (kBlocks + 1));
+    const SliceCount count = collect_unknown_kernel(level)(
+        numbers, blocks.data(), first, {keys.data(), places.data(), words.data()});
+    EXPECT_EQ(VoxelSet({keys.data(), count.blocks}, {places.data(), count.words},
+                       {words.data(), count.words}),
+              VoxelSet(expected))
+        << simd_level_name(level);
   }
 }
 

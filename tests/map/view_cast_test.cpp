@@ -142,6 +142,26 @@ TEST(ViewCast, HoldsUntilACrossedBlockChanges) {
   EXPECT_FALSE(still_valid(cast, {behind, crossed}));
 }
 
+TEST(BlockSet, HoldsTheBlocksItIsMadeOfAndNoOthers) {
+  Rng rng(3, "blocks");
+  std::set<BlockKey> plain;
+  const auto index = [&] { return static_cast<int>(rng.index(12)) - 6; };
+  for (int i = 0; i < 200; ++i) plain.insert(pack_block(index(), index(), index()));
+  const std::vector<BlockKey> keys(plain.begin(), plain.end());
+  const BlockSet blocks(keys);
+  EXPECT_EQ(blocks.keys(), keys);
+  for (int x = -9; x < 9; ++x) {
+    for (int y = -9; y < 9; ++y) {
+      for (int z = -9; z < 9; ++z) {
+        const BlockKey key = pack_block(x, y, z);
+        ASSERT_EQ(blocks.contains(key), plain.count(key) == 1);
+      }
+    }
+  }
+  EXPECT_EQ(BlockSet(), BlockSet(std::vector<BlockKey>{}));
+  EXPECT_FALSE(BlockSet().contains(pack_block(0, 0, 0)));
+}
+
 TEST(RayBlocked, ByAnOccupiedVoxelInBetweenButNotByAnIgnoredOne) {
   const VoxelMap map = map_of({{1, 0, 0}}, {{20, 0, 0}});
   const Vec3 a(0.005, 0.005, 0.005), b(0.405, 0.005, 0.005), c(0.15, 0.005, 0.005);

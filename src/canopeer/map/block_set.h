@@ -35,7 +35,8 @@ class BlockSet {
   bool for_each(Visit&& visit) const {
     for (std::size_t word = 0; word < bits_.size(); ++word) {
       for (std::uint64_t bits = bits_[word]; bits != 0; bits &= bits - 1) {
-        if (!visit(key_of(64 * word + static_cast<std::size_t>(std::countr_zero(bits))))) return false;
+        if (!visit(key_of(64 * word + static_cast<std::size_t>(std::countr_zero(bits)))))
+          return false;
       }
     }
     return true;

@@ -100,8 +100,8 @@ CANOPEER_TARGET_AVX2 void walk_rays_avx2(const RayLanes& rays, std::size_t voxel
           _mm256_and_si256(_mm256_srli_epi64(at, kShiftY), _mm256_set1_epi64x(kMaskY)));
       run = _mm256_or_si256(run, _mm256_sllv_epi64(_mm256_set1_epi64x(1), bit));
       _mm256_store_si256(reinterpret_cast<__m256i*>(out.at + place), at);
-      const __m256i slice = _mm256_and_si256(_mm256_srli_epi64(at, kShiftZ),
-                                             _mm256_set1_epi64x(kBlockSide - 1));
+      const __m256i slice =
+          _mm256_and_si256(_mm256_srli_epi64(at, kShiftZ), _mm256_set1_epi64x(kBlockSide - 1));
       alignas(32) std::int64_t slices[4];
       _mm256_store_si256(reinterpret_cast<__m256i*>(slices), slice);
       for (std::size_t i = 0; i < 4; ++i) {
@@ -149,22 +149,21 @@ CANOPEER_TARGET_AVX512 void start_rays_avx512(const Vec3& from, std::span<const 
     const __m512d start = _mm512_set1_pd(from[axis]);
     const __m512d d = _mm512_sub_pd(_mm512_load_pd(to[axis]), start);
     const __mmask8 up = _mm512_cmp_pd_mask(d, zero, _CMP_GT_OQ);
-    const __m512d voxels =
-        _mm512_roundscale_pd(_mm512_div_pd(_mm512_load_pd(to[axis]), resolution),
-                             _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+    const __m512d voxels = _mm512_roundscale_pd(_mm512_div_pd(_mm512_load_pd(to[axis]), resolution),
+                                                _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
     const __m512i apart = _mm512_abs_epi64(
         _mm512_sub_epi64(_mm512_cvttpd_epi64(voxels), _mm512_set1_epi64(first[axis])));
     const __m512i crossings =
         _mm512_maskz_mov_epi64(_mm512_cmp_pd_mask(d, zero, _CMP_NEQ_OQ), apart);
-    const __m512d face = _mm512_mul_pd(
-        _mm512_mask_add_pd(_mm512_set1_pd(first[axis]), up, _mm512_set1_pd(first[axis]),
-                           _mm512_set1_pd(1.0)),
-        resolution);
+    const __m512d face =
+        _mm512_mul_pd(_mm512_mask_add_pd(_mm512_set1_pd(first[axis]), up,
+                                         _mm512_set1_pd(first[axis]), _mm512_set1_pd(1.0)),
+                      resolution);
     __m512d t = _mm512_div_pd(_mm512_sub_pd(face, start), d);
     t = _mm512_min_pd(_mm512_max_pd(t, zero), _mm512_set1_pd(1.0));
     __m512i next = _mm512_cvttpd_epi64(_mm512_mul_pd(t, end_time));
-    __m512i delta = _mm512_cvttpd_epi64(
-        _mm512_mul_pd(_mm512_div_pd(resolution, _mm512_abs_pd(d)), end_time));
+    __m512i delta =
+        _mm512_cvttpd_epi64(_mm512_mul_pd(_mm512_div_pd(resolution, _mm512_abs_pd(d)), end_time));
     delta = _mm512_mask_add_epi64(delta, _mm512_cmpeq_epi64_mask(crossings, one), end, one);
     const __m512i beyond = _mm512_add_epi64(next, _mm512_mullo_epi64(crossings, delta));
     const __mmask8 crosses = _mm512_test_epi64_mask(crossings, crossings);
@@ -228,8 +227,8 @@ CANOPEER_TARGET_AVX512 void walk_rays_avx512(const RayLanes& rays, std::size_t v
     const __mmask8 leaves = _mm512_test_epi64_mask(change, _mm512_set1_epi64(kSlicePart));
     run = _mm512_maskz_mov_epi64(static_cast<__mmask8>(~leaves), run);
     out.leaves_slice[step] = static_cast<std::uint8_t>(leaves);
-    out.leaves_block[step] = static_cast<std::uint8_t>(
-        _mm512_test_epi64_mask(change, _mm512_set1_epi64(kBlockPart)));
+    out.leaves_block[step] =
+        static_cast<std::uint8_t>(_mm512_test_epi64_mask(change, _mm512_set1_epi64(kBlockPart)));
   }
 }
 

@@ -38,9 +38,8 @@ CANOPEER_TARGET_AVX512 SliceCount collect_unknown_avx512(std::span<const std::ui
   SliceCount count;
   for (const std::uint32_t number : numbers) {
     const MetBlock& block = blocks[number];
-    const __m512i unknown =
-        _mm512_andnot_si512(_mm512_loadu_si512(block.observed->slices.data()),
-                            _mm512_load_si512(block.crossed.slices.data()));
+    const __m512i unknown = _mm512_andnot_si512(_mm512_loadu_si512(block.observed->slices.data()),
+                                                _mm512_load_si512(block.crossed.slices.data()));
     const __mmask8 some = _mm512_test_epi64_mask(unknown, unknown);
     const __m256i places =
         _mm256_add_epi32(slices, _mm256_set1_epi32(static_cast<int>(count.blocks * kBlockSide)));

@@ -31,10 +31,10 @@ struct SliceCount {
   std::size_t blocks = 0, words = 0;
 };
 
-/// What is crossed and not observed of the blocks `numbers`, in their order. `first`: the key of the
-/// window's first block. Writes up to eight items behind the last one it counts.
-using CollectUnknown = SliceCount (*)(std::span<const std::uint32_t> numbers, const MetBlock* blocks,
-                                      BlockKey first, const SliceRoom& out);
+/// What is crossed and not observed of the blocks `numbers`, in their order. `first`: the key of
+/// the window's first block. Writes up to eight items behind the last one it counts.
+using CollectUnknown = SliceCount (*)(std::span<const std::uint32_t> numbers,
+                                      const MetBlock* blocks, BlockKey first, const SliceRoom& out);
 
 /// `level` must be one the machine has.
 CollectUnknown collect_unknown_kernel(SimdLevel level);

@@ -27,7 +27,7 @@ struct ViewFan {
 };
 
 struct ViewCast {
-  VoxelSet unknown;               ///< the distinct unknown voxels the rays cross
+  VoxelSet unknown;  ///< the distinct unknown voxels the rays cross
   BlockSet touched;  ///< the result holds as long as these do not change
 };
 

@@ -14,8 +14,6 @@ constexpr VoxelMask kNothing{};
 constexpr BlockMasks kNoMasks{};
 constexpr VoxelMask kEverything = VoxelMask::all();
 
-BlockKey key_of(const VoxelIndex& block) { return pack_block(block.x(), block.y(), block.z()); }
-
 // How many of a ray's voxels make up `max_unknown_m`: rays cross more of them along a diagonal.
 std::size_t unknown_voxels(std::size_t voxels, double length_m, double max_unknown_m) {
   if (max_unknown_m >= length_m) return voxels;
@@ -54,7 +52,8 @@ ViewCaster::ViewCaster(const VoxelMap& map, const Box& world, bool all, SimdLeve
       memory_(scratch()) {
   // A voxel to spare on each side, for rounding.
   const Vec3 spare = Vec3::Constant(map.resolution_m());
-  first_block_ = block_index(block_key(voxel_at(world.min() - spare, map.resolution_m())));
+  first_key_ = block_key(voxel_at(world.min() - spare, map.resolution_m()));
+  first_block_ = block_index(first_key_);
   const VoxelIndex last = block_index(block_key(voxel_at(world.max() + spare, map.resolution_m())));
   blocks_ = last - first_block_ + VoxelIndex::Ones();
   const auto cells = static_cast<std::size_t>(blocks_.cast<std::int64_t>().prod());
@@ -64,8 +63,7 @@ ViewCaster::ViewCaster(const VoxelMap& map, const Box& world, bool all, SimdLeve
   const auto chunk_index = [](const VoxelIndex& block) {
     return VoxelIndex(block.unaryExpr([](int b) { return b >> BlockDirectory::kChunkShift; }));
   };
-  first_chunk_ = chunk_index(first_block_);
-  chunks_ = chunk_index(last) - first_chunk_ + VoxelIndex::Ones();
+  chunks_ = chunk_index(last) - chunk_index(first_block_) + VoxelIndex::Ones();
   memory_.chunks.assign(static_cast<std::size_t>(chunks_.cast<std::int64_t>().prod()), nullptr);
 }
 
@@ -92,10 +90,10 @@ void ViewCaster::cast_together(const Vec3& from, std::span<const Vec3> ends, dou
     return;
   }
   make_room(most);
-  walk_rays_(memory_.lanes, most,
-             {memory_.at.front().items.data(), memory_.slice.data(),
-              memory_.run.front().items.data(), memory_.leaves_slice.data(),
-              memory_.leaves_block.data()});
+  walk_rays_(
+      memory_.lanes, most,
+      {memory_.at.front().items.data(), memory_.slice.data(), memory_.run.front().items.data(),
+       memory_.leaves_slice.data(), memory_.leaves_block.data()});
   turn_to_rows(memory_.leaves_slice.data(), most, memory_.slice_ends.data());
   const std::size_t words =
       turn_to_rows(memory_.leaves_block.data(), most, memory_.block_ends.data());
@@ -181,21 +179,21 @@ std::size_t ViewCaster::find_way(std::size_t lane, std::size_t words, MetBlock**
 // The blocks numbered since the last time. No branch on what they are: it would be mispredicted.
 void ViewCaster::look_up_new() {
   static const BlockDirectory::Chunk kEmpty;
+  constexpr int kShift = BlockDirectory::kChunkShift;
   constexpr unsigned kRelevant = BlockSummary::kComplete | BlockSummary::kOccupied;
   const bool some = map_.observed_voxels() != 0;  // so there is a slot 0
-  const BlockKey first = key_of(first_block_);
-  const BlockKey in_chunk = first - BlockDirectory::chunk_key(first);
+  const BlockKey in_chunk = first_key_ - BlockDirectory::chunk_key(first_key_);
   const auto row = static_cast<std::uint32_t>(chunks_.x());
   const auto layer = static_cast<std::uint32_t>(chunks_.x() * chunks_.y());
   const BlockDirectory::Chunk** const chunks = memory_.chunks.data();
   MetBlock* const end = memory_.met.data() + met_ + 1;
   for (MetBlock* block = memory_.met.data() + looked_up_ + 1; block != end; ++block) {
     const BlockKey place = block->place + in_chunk;  // from the first chunk's first block
-    const std::uint32_t cell = packed_voxel::field<0>(place) / 4 +
-                               packed_voxel::field<1>(place) / 4 * row +
-                               packed_voxel::field<2>(place) / 4 * layer;
+    const std::uint32_t cell = (packed_voxel::field<0>(place) >> kShift) +
+                               (packed_voxel::field<1>(place) >> kShift) * row +
+                               (packed_voxel::field<2>(place) >> kShift) * layer;
     if (chunks[cell] == nullptr) [[unlikely]] {
-      chunks[cell] = map_.chunk(first + block->place);
+      chunks[cell] = map_.chunk(first_key_ + block->place);
       if (chunks[cell] == nullptr) chunks[cell] = &kEmpty;
     }
     const BlockDirectory::Chunk& chunk = *chunks[cell];
@@ -286,66 +284,6 @@ void ViewCaster::stop_at(const MetBlock& block, std::size_t slice, std::uint64_t
   const auto number = static_cast<std::size_t>(&block - memory_.met.data());
   if (memory_.stops.size() <= number) memory_.stops.resize(met_ + 1);
   memory_.stops[number].slices[slice] |= bit;
-}
-
-// Cell order is key order.
-std::span<const std::uint32_t> ViewCaster::entered() const {
-  memory_.in_order.resize(met_);
-  std::uint32_t* const in_order = memory_.in_order.data();
-  std::size_t count = 0;
-  const std::uint32_t* number = memory_.number.data();
-  for (const std::uint64_t word : memory_.entered) {
-    for (std::uint64_t bits = word; bits != 0; bits &= bits - 1) {
-      in_order[count++] = number[std::countr_zero(bits)];
-    }
-    number += 64;
-  }
-  return {in_order, count};
-}
-
-ViewCast ViewCaster::result() const {
-  const std::span<const std::uint32_t> numbers = entered();
-  if (memory_.found_keys.size() <= met_) {
-    memory_.found_keys.resize(2 * met_ + 1);
-    memory_.found_places.resize(kBlockSide * memory_.found_keys.size());
-    memory_.found_words.resize(kBlockSide * memory_.found_keys.size());
-  }
-  const SliceRoom found{memory_.found_keys.data(), memory_.found_places.data(),
-                        memory_.found_words.data()};
-  const SliceCount count =
-      collect_unknown_(numbers, memory_.met.data(), key_of(first_block_), found);
-  return {VoxelSet({found.keys, count.blocks}, {found.places, count.words},
-                   {found.words, count.words}),
-          BlockSet(first_block_, blocks_, memory_.entered)};
-}
-
-SeenVoxels ViewCaster::all() const {
-  SeenVoxels seen;
-  std::vector<VoxelSet::Block> unknown, free, occupied, roi;
-  for (const std::uint32_t number : entered()) {
-    const BlockKey key = key_of(first_block_) + memory_.met[number].place;
-    const VoxelMask& crossed = memory_.met[number].crossed;
-    VoxelMask not_known = crossed;
-    if (const BlockMasks* masks = memory_.met[number].known; masks != nullptr) {
-      not_known -= masks->observed;
-      VoxelMask known = crossed;
-      known &= masks->observed;
-      free.push_back({key, known});
-      const VoxelMask stops = number < memory_.stops.size() ? memory_.stops[number] : VoxelMask{};
-      occupied.push_back({key, stops});
-      VoxelMask fruit = crossed;
-      fruit |= stops;
-      fruit &= masks->roi;
-      roi.push_back({key, fruit});
-    }
-    unknown.push_back({key, not_known});
-  }
-  seen.touched = BlockSet(first_block_, blocks_, memory_.entered);
-  seen.unknown = VoxelSet(std::move(unknown));
-  seen.free = VoxelSet(std::move(free));
-  seen.occupied = VoxelSet(std::move(occupied));
-  seen.roi = VoxelSet(std::move(roi));
-  return seen;
 }
 
 }  // namespace canopeer

@@ -34,8 +34,8 @@ class ViewCaster {
   };
   // Memory that a thread uses again from view to view. Blocks met are numbered from 1.
   struct Scratch {
-    std::vector<std::uint32_t> number;   // per cell: kNew, or the block's number
-    std::vector<std::uint64_t> entered;  // per cell a bit: some ray came here
+    std::vector<std::uint32_t> number;                 // per cell: kNew, or the block's number
+    std::vector<std::uint64_t> entered;                // per cell a bit: some ray came here
     std::vector<const BlockDirectory::Chunk*> chunks;  // nullptr: not asked for yet
     std::vector<MetBlock> met;                         // per number
     std::vector<VoxelMask> stops;  // per number, where rays stopped; only for all_
@@ -51,7 +51,7 @@ class ViewCaster {
     std::vector<std::uint8_t> slice;
     std::vector<std::uint8_t> leaves_slice, leaves_block;
     std::vector<std::uint64_t> slice_ends, block_ends;  // the same, a row of bits a lane
-    std::vector<MetBlock*> way;  // the blocks each could come to
+    std::vector<MetBlock*> way;                         // the blocks each could come to
   };
   static Scratch& scratch();
 
@@ -72,10 +72,10 @@ class ViewCaster {
   StartRays start_rays_;
   WalkRays walk_rays_;
   CollectUnknown collect_unknown_;
+  BlockKey first_key_ = 0;  // of the window
   VoxelIndex first_block_;
-  VoxelIndex blocks_;       // of the window, per axis
-  VoxelIndex first_chunk_;  // the same for the chunks they lie in
-  VoxelIndex chunks_;
+  VoxelIndex blocks_;  // per axis
+  VoxelIndex chunks_;  // that they lie in, per axis
   Scratch& memory_;
   std::uint32_t met_ = 0;        // blocks numbered
   std::uint32_t looked_up_ = 0;  // of them

@@ -5,8 +5,10 @@
 namespace canopeer {
 
 VoxelSet::VoxelSet(std::vector<Block> blocks) {
-  std::sort(blocks.begin(), blocks.end(),
-            [](const Block& a, const Block& b) { return a.key < b.key; });
+  const auto by_key = [](const Block& a, const Block& b) { return a.key < b.key; };
+  if (!std::is_sorted(blocks.begin(), blocks.end(), by_key)) {
+    std::sort(blocks.begin(), blocks.end(), by_key);
+  }
   for (const Block& block : blocks) {
     for (std::uint32_t z = 0; z < kBlockSide; ++z) append({block.key, z}, block.mask.slices[z]);
   }
@@ -29,11 +31,12 @@ std::int64_t VoxelSet::count() const {
 bool VoxelSet::contains(const VoxelIndex& voxel) const {
   const auto key = std::lower_bound(keys_.begin(), keys_.end(), block_key(voxel));
   if (key == keys_.end() || *key != block_key(voxel)) return false;
-  const auto place = static_cast<std::uint32_t>((key - keys_.begin()) * kBlockSide +
-                                                VoxelMask::slice_of(voxel));
+  const auto place =
+      static_cast<std::uint32_t>((key - keys_.begin()) * kBlockSide + VoxelMask::slice_of(voxel));
   const auto found = std::lower_bound(places_.begin(), places_.end(), place);
   if (found == places_.end() || *found != place) return false;
-  return (words_[static_cast<std::size_t>(found - places_.begin())] & VoxelMask::bit_of(voxel)) != 0;
+  return (words_[static_cast<std::size_t>(found - places_.begin())] & VoxelMask::bit_of(voxel)) !=
+         0;
 }
 
 // `take(slice, its word in a, its word in b)`, in ascending order.
@@ -44,8 +47,7 @@ void VoxelSet::walk_both(const VoxelSet& a, const VoxelSet& b, Take&& take) {
   while (i < a.words_.size() || j < b.words_.size()) {
     const Slice of_a = i < a.words_.size() ? a.slice(i) : kEnd;
     const Slice of_b = j < b.words_.size() ? b.slice(j) : kEnd;
-    take(std::min(of_a, of_b), of_a <= of_b ? a.words_[i++] : 0,
-         of_b <= of_a ? b.words_[j++] : 0);
+    take(std::min(of_a, of_b), of_a <= of_b ? a.words_[i++] : 0, of_b <= of_a ? b.words_[j++] : 0);
   }
 }
 

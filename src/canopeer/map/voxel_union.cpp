@@ -80,7 +80,8 @@ std::int64_t VoxelUnion::count_new(const VoxelSet& set) const {
   for (std::size_t block = 0; block < set.keys().size(); ++block) {
     const BlockKey key = set.keys()[block];
     std::uint32_t number = numbers_[home(key)];
-    if (number != kNone && keys_[number] != key) [[unlikely]] number = numbers_[place_of(key)];
+    if (number != kNone && keys_[number] != key) [[unlikely]]
+      number = numbers_[place_of(key)];
     const Mask& mask = number == kNone ? kNothing : masks_[number];
     for (; i < set.words().size() && set.places()[i] / kBlockSide == block; ++i) {
       fresh += std::popcount(set.words()[i] & ~mask.slices[set.places()[i] % kBlockSide]);
