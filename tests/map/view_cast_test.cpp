@@ -7,6 +7,7 @@
 #include <set>
 
 #include "ball_scene.h"
+#include "canopeer/map/view_caster.h"
 
 namespace canopeer {
 namespace {
@@ -48,6 +49,34 @@ TEST(ViewCast, FindsTheVoxelsAPlainWalkerFinds) {
     EXPECT_EQ(as_set(cast.unknown), expected) << "view " << i;
     EXPECT_EQ(cast.unknown.count(), static_cast<std::int64_t>(expected.size()));
     EXPECT_EQ(cast.touched.keys(), std::vector<BlockKey>(crossed.begin(), crossed.end()));
+  }
+}
+
+TEST(ViewCast, FindsTheSameWithAnyInstructionSet) {
+  const VoxelMap map = BallScene::map(1, 2);
+  Rng rng(4, "levels");
+  for (int i = 0; i < 10; ++i) {
+    const Vec3 from = BallScene::random_camera(rng).translation();
+    std::vector<Vec3> ends(1 + rng.index(40));
+    for (Vec3& end : ends) {
+      end = from + Vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
+    }
+    if (i % 3 == 0) ends.front() = from + Vec3(0.001, 0.0, 0.0);  // goes alone
+    const Box world(from - Vec3::Ones(), from + Vec3::Ones());
+    const double max_unknown_m = i % 2 == 0 ? 0.2 : 10.0;
+    const auto cast = [&](SimdLevel level) {
+      ViewCaster caster(map, world, false, level);
+      caster.cast(from, ends, max_unknown_m);
+      return caster.result();
+    };
+    const ViewCast expected = cast(SimdLevel::scalar);
+    EXPECT_FALSE(expected.unknown.empty());
+    for (const SimdLevel level : kSimdLevels) {
+      if (level > best_simd_level()) continue;
+      const ViewCast found = cast(level);
+      EXPECT_EQ(found.unknown, expected.unknown) << simd_level_name(level);
+      EXPECT_EQ(found.touched, expected.touched) << simd_level_name(level);
+    }
   }
 }
 

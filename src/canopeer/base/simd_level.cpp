@@ -6,11 +6,13 @@ SimdLevel best_simd_level() {
 #if defined(__x86_64__)
   static const SimdLevel best = [] {
     __builtin_cpu_init();
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+    const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") &&
+                      __builtin_cpu_supports("bmi2");
+    if (avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) {
       return SimdLevel::avx512;
     }
-    return __builtin_cpu_supports("avx2") ? SimdLevel::avx2 : SimdLevel::scalar;
+    return avx2 ? SimdLevel::avx2 : SimdLevel::scalar;
   }();
   return best;
 #else

@@ -11,6 +11,7 @@
 #define CANOPEER_KERNEL_BODY [[gnu::always_inline]] inline
 #if defined(__x86_64__)
 #define CANOPEER_TARGET_AVX2 __attribute__((target("avx2")))
+#define CANOPEER_TARGET_BMI2 __attribute__((target("bmi,bmi2")))  // from level avx2 on
 #if defined(__clang__)
 #define CANOPEER_TARGET_AVX512 __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl")))
 #else
@@ -19,5 +20,6 @@
 #endif
 #else
 #define CANOPEER_TARGET_AVX2
+#define CANOPEER_TARGET_BMI2
 #define CANOPEER_TARGET_AVX512
 #endif

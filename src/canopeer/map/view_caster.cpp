@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "canopeer/map/kernel_targets.h"
+
 namespace canopeer {
 namespace {
 
@@ -46,6 +48,7 @@ ViewCaster::Scratch& ViewCaster::scratch() {
 ViewCaster::ViewCaster(const VoxelMap& map, const Box& world, bool all, SimdLevel simd)
     : map_(map),
       all_(all),
+      has_bmi2_(simd != SimdLevel::scalar),
       start_rays_(start_rays_kernel(simd)),
       walk_rays_(walk_rays_kernel(simd)),
       collect_unknown_(collect_unknown_kernel(simd)),
@@ -75,47 +78,6 @@ void ViewCaster::cast(const Vec3& from, std::span<const Vec3> ends, double max_u
   }
 }
 
-void ViewCaster::cast_together(const Vec3& from, std::span<const Vec3> ends, double max_unknown_m) {
-  std::array<Ray, RayLanes::kCount> rays;
-  std::size_t most = 0, least = std::numeric_limits<std::size_t>::max();
-  start_rays_(from, ends, map_.resolution_m(), first_block_ * kBlockSide, memory_.lanes);
-  for (std::size_t lane = 0; lane < ends.size(); ++lane) {
-    const std::size_t voxels = static_cast<std::size_t>(memory_.lanes.steps[lane]) + 1;
-    rays[lane] = {voxels, unknown_voxels(voxels, (ends[lane] - from).norm(), max_unknown_m)};
-    most = std::max(most, voxels);
-    least = std::min(least, voxels);
-  }
-  if (most > 64 * least) {  // they cannot go together
-    for (const Vec3& end : ends) cast_together(from, std::span(&end, 1), max_unknown_m);
-    return;
-  }
-  make_room(most);
-  walk_rays_(
-      memory_.lanes, most,
-      {memory_.at.front().items.data(), memory_.slice.data(), memory_.run.front().items.data(),
-       memory_.leaves_slice.data(), memory_.leaves_block.data()});
-  turn_to_rows(memory_.leaves_slice.data(), most, memory_.slice_ends.data());
-  const std::size_t words =
-      turn_to_rows(memory_.leaves_block.data(), most, memory_.block_ends.data());
-  // All blocks the rays could come to, before any is followed: their memory is fetched meanwhile.
-  std::array<MetBlock**, RayLanes::kCount> ways;
-  MetBlock** next = memory_.way.data();
-  for (std::size_t lane = 0; lane < ends.size(); ++lane) {
-    close_row(lane, rays[lane].voxels, words);
-    ways[lane] = next;
-    next += find_way(lane, words, next);
-  }
-  look_up_new();
-  for (std::size_t lane = 0; lane < ends.size(); ++lane) {
-    const std::size_t left = rays[lane].unknown_left;
-    if (left < rays[lane].voxels) {
-      follow<true>(lane, words, ways[lane], left);
-    } else {
-      follow<false>(lane, words, ways[lane], left);
-    }
-  }
-}
-
 void ViewCaster::make_room(std::size_t voxels) {
   const std::size_t steps = (voxels + 7) / 8 * 8;
   const std::size_t most_blocks = RayLanes::kCount * steps;
@@ -134,7 +96,8 @@ void ViewCaster::make_room(std::size_t voxels) {
 }
 
 // The last voxel ends a run, and nothing comes after it.
-void ViewCaster::close_row(std::size_t lane, std::size_t voxels, std::size_t words) {
+CANOPEER_KERNEL_BODY void ViewCaster::close_row(std::size_t lane, std::size_t voxels,
+                                                std::size_t words) {
   const std::size_t last = (voxels - 1) / 64;
   const std::uint64_t end = std::uint64_t{1} << ((voxels - 1) % 64);
   for (auto* rows : {&memory_.slice_ends, &memory_.block_ends}) {
@@ -146,7 +109,8 @@ void ViewCaster::close_row(std::size_t lane, std::size_t voxels, std::size_t wor
 
 // All blocks a ray could come to; returns how many they are. No branch on what is new: it would be
 // mispredicted.
-std::size_t ViewCaster::find_way(std::size_t lane, std::size_t words, MetBlock** way) {
+CANOPEER_KERNEL_BODY std::size_t ViewCaster::find_way(std::size_t lane, std::size_t words,
+                                                      MetBlock** way) {
   const std::uint64_t* const ends = memory_.block_ends.data() + lane * words;
   const PackedVoxel* at = &memory_.at.front().items[lane];
   MetBlock* const blocks = memory_.met.data();
@@ -177,7 +141,7 @@ std::size_t ViewCaster::find_way(std::size_t lane, std::size_t words, MetBlock**
 }
 
 // The blocks numbered since the last time. No branch on what they are: it would be mispredicted.
-void ViewCaster::look_up_new() {
+CANOPEER_KERNEL_BODY void ViewCaster::look_up_new() {
   static const BlockDirectory::Chunk kEmpty;
   constexpr int kShift = BlockDirectory::kChunkShift;
   constexpr unsigned kRelevant = BlockSummary::kComplete | BlockSummary::kOccupied;
@@ -219,8 +183,8 @@ void ViewCaster::look_up_new() {
 // the others: nothing is new or in the way there. kLimited: it may end for crossing too much
 // unknown space.
 template <bool kLimited>
-void ViewCaster::follow(std::size_t lane, std::size_t words, MetBlock* const* way,
-                        std::size_t unknown_left) {
+CANOPEER_KERNEL_BODY void ViewCaster::follow(std::size_t lane, std::size_t words,
+                                             MetBlock* const* way, std::size_t unknown_left) {
   const std::uint64_t* const slice_ends = memory_.slice_ends.data() + lane * words;
   const std::uint64_t* const block_ends = memory_.block_ends.data() + lane * words;
   const std::uint64_t* runs = &memory_.run.front().items[lane];
@@ -255,6 +219,61 @@ void ViewCaster::follow(std::size_t lane, std::size_t words, MetBlock* const* wa
   }
   std::uint64_t* const entered = memory_.entered.data();
   for (; way != block; ++way) entered[(*way)->cell >> 6] |= std::uint64_t{1} << ((*way)->cell & 63);
+}
+
+CANOPEER_KERNEL_BODY void ViewCaster::cast_body(const Vec3& from, std::span<const Vec3> ends,
+                                                double max_unknown_m) {
+  std::array<Ray, RayLanes::kCount> rays;
+  std::size_t most = 0, least = std::numeric_limits<std::size_t>::max();
+  start_rays_(from, ends, map_.resolution_m(), first_block_ * kBlockSide, memory_.lanes);
+  for (std::size_t lane = 0; lane < ends.size(); ++lane) {
+    const std::size_t voxels = static_cast<std::size_t>(memory_.lanes.steps[lane]) + 1;
+    rays[lane] = {voxels, unknown_voxels(voxels, (ends[lane] - from).norm(), max_unknown_m)};
+    most = std::max(most, voxels);
+    least = std::min(least, voxels);
+  }
+  if (most > 64 * least) {  // they cannot go together
+    for (const Vec3& end : ends) cast_together(from, std::span(&end, 1), max_unknown_m);
+    return;
+  }
+  make_room(most);
+  walk_rays_(
+      memory_.lanes, most,
+      {memory_.at.front().items.data(), memory_.slice.data(), memory_.run.front().items.data(),
+       memory_.leaves_slice.data(), memory_.leaves_block.data()});
+  turn_to_rows(memory_.leaves_slice.data(), most, memory_.slice_ends.data());
+  const std::size_t words =
+      turn_to_rows(memory_.leaves_block.data(), most, memory_.block_ends.data());
+  // All blocks the rays could come to, before any is followed: their memory is fetched meanwhile.
+  std::array<MetBlock**, RayLanes::kCount> ways;
+  MetBlock** next = memory_.way.data();
+  for (std::size_t lane = 0; lane < ends.size(); ++lane) {
+    close_row(lane, rays[lane].voxels, words);
+    ways[lane] = next;
+    next += find_way(lane, words, next);
+  }
+  look_up_new();
+  for (std::size_t lane = 0; lane < ends.size(); ++lane) {
+    const std::size_t left = rays[lane].unknown_left;
+    if (left < rays[lane].voxels) {
+      follow<true>(lane, words, ways[lane], left);
+    } else {
+      follow<false>(lane, words, ways[lane], left);
+    }
+  }
+}
+
+CANOPEER_TARGET_BMI2 void ViewCaster::cast_with_bmi2(const Vec3& from, std::span<const Vec3> ends,
+                                                     double max_unknown_m) {
+  cast_body(from, ends, max_unknown_m);
+}
+
+void ViewCaster::cast_without(const Vec3& from, std::span<const Vec3> ends, double max_unknown_m) {
+  cast_body(from, ends, max_unknown_m);
+}
+
+void ViewCaster::cast_together(const Vec3& from, std::span<const Vec3> ends, double max_unknown_m) {
+  has_bmi2_ ? cast_with_bmi2(from, ends, max_unknown_m) : cast_without(from, ends, max_unknown_m);
 }
 
 // The run up to `step`, voxel by voxel: somewhere here the ray may end.

@@ -1,6 +1,7 @@
 #include "canopeer/search/view_casts.h"
 
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 namespace canopeer {
 
@@ -11,10 +12,15 @@ void ensure_casts(ViewGraph& graph, const std::vector<NodeId>& nodes, const Voxe
     if (!graph.node(id).cast) missing.push_back(id);
   }
   work.add(Work::view_cast, static_cast<std::int64_t>(missing.size()));
-  tbb::parallel_for(std::size_t{0}, missing.size(), [&](std::size_t i) {
+  const auto cast = [&](std::size_t i) {
     ViewNode& node = graph.node(missing[i]);
     node.cast = cast_view(map, node.view.T_world_camera, fan);
-  });
+  };
+  if (tbb::this_task_arena::max_concurrency() == 1) {  // spares two microseconds a view
+    for (std::size_t i = 0; i < missing.size(); ++i) cast(i);
+  } else {
+    tbb::parallel_for(std::size_t{0}, missing.size(), cast);
+  }
 }
 
 }  // namespace canopeer
