@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "canopeer/map/kernel_targets.h"
 
@@ -268,12 +267,12 @@ CANOPEER_TARGET_BMI2 void ViewCaster::cast_with_bmi2(const Vec3& from, std::span
   cast_body(from, ends, max_unknown_m);
 }
 
-void ViewCaster::cast_without(const Vec3& from, std::span<const Vec3> ends, double max_unknown_m) {
+void ViewCaster::cast_plain(const Vec3& from, std::span<const Vec3> ends, double max_unknown_m) {
   cast_body(from, ends, max_unknown_m);
 }
 
 void ViewCaster::cast_together(const Vec3& from, std::span<const Vec3> ends, double max_unknown_m) {
-  has_bmi2_ ? cast_with_bmi2(from, ends, max_unknown_m) : cast_without(from, ends, max_unknown_m);
+  has_bmi2_ ? cast_with_bmi2(from, ends, max_unknown_m) : cast_plain(from, ends, max_unknown_m);
 }
 
 // The run up to `step`, voxel by voxel: somewhere here the ray may end.

@@ -58,7 +58,7 @@ class ViewCaster {
   // Up to eight rays. The same body for machines with and without instructions for single bits.
   void cast_together(const Vec3& from, std::span<const Vec3> ends, double max_unknown_m);
   void cast_with_bmi2(const Vec3& from, std::span<const Vec3> ends, double max_unknown_m);
-  void cast_without(const Vec3& from, std::span<const Vec3> ends, double max_unknown_m);
+  void cast_plain(const Vec3& from, std::span<const Vec3> ends, double max_unknown_m);
   void cast_body(const Vec3& from, std::span<const Vec3> ends, double max_unknown_m);
   void make_room(std::size_t voxels);
   void close_row(std::size_t lane, std::size_t voxels, std::size_t words);

@@ -16,7 +16,7 @@ void ensure_casts(ViewGraph& graph, const std::vector<NodeId>& nodes, const Voxe
     ViewNode& node = graph.node(missing[i]);
     node.cast = cast_view(map, node.view.T_world_camera, fan);
   };
-  if (tbb::this_task_arena::max_concurrency() == 1) {  // spares two microseconds a view
+  if (tbb::this_task_arena::max_concurrency() == 1) {  // a task costs more than a microsecond
     for (std::size_t i = 0; i < missing.size(); ++i) cast(i);
   } else {
     tbb::parallel_for(std::size_t{0}, missing.size(), cast);
