@@ -30,6 +30,7 @@ constexpr HeaderOrigin kOrigins[] = {
     {"urdf_model/", "liburdfdom-headers-dev"},
     {"urdf_parser/", "liburdfdom-dev"},
     {"console_bridge/", "libconsole-bridge-dev"},
+    {"cereal/", "libcereal-dev"},
     {"ceres/", "libceres-dev"},
     {"opencv2/core", "libopencv-core-dev"},
     {"opencv2/dnn", "libopencv-dnn-dev"},

@@ -47,6 +47,11 @@ class WorkMeter {
   /// Seconds all counted work costs by the table.
   double seconds(const CostTable& table) const;
 
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(units_);
+  }
+
  private:
   std::array<std::int64_t, kWorkKinds> units_{};
 };

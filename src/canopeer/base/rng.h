@@ -25,6 +25,11 @@ class Rng {
   std::uint64_t index(std::uint64_t count);
   bool chance(double probability) { return uniform() < probability; }
 
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    for (std::uint64_t& word : state_) archive(word);
+  }
+
  private:
   std::uint64_t state_[4];
 };
