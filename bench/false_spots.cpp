@@ -1,7 +1,7 @@
 #include "false_spots.h"
 
 #include "canopeer/base/rng.h"
-#include "canopeer/fruit/voxel_key.h"
+#include "canopeer/fruit/surface/voxel_key.h"
 
 namespace canopeer {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "canopeer/fruit/euclidean_clusters.h"
-#include "canopeer/fruit/voxel_key.h"
+#include "canopeer/fruit/instances/euclidean_clusters.h"
+#include "canopeer/fruit/surface/voxel_key.h"
 
 namespace canopeer {
 

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "canopeer/import/collada_asset.h"
+#include "canopeer/import/meshes/collada_asset.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);

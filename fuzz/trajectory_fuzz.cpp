@@ -1,7 +1,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "canopeer/sensing/timed_files.h"
+#include "canopeer/sensing/files/timed_files.h"
 #include "canopeer/sensing/trajectory.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -7,7 +7,7 @@ Each DIR holds a candidates.csv of bench/fruit_replay. The weights are those of 
 weak pull to zero, by Newton's method); evidence may only count the way it can: the sign of each weight is given, a weight that
 would have the other sign is zero. Every look at a candidate counts, but each candidate of a run at most as much as five looks,
 since looks at one thing are not independent. Green fruits (neither right nor wrong) are left out.
-Prints the weights as src/canopeer/fruit/confidence.cpp has them, and how many of the candidates held back are real by confidence.
+Prints the weights as src/canopeer/fruit/confidence/confidence.cpp has them, and how many of the candidates held back are real by confidence.
 """
 import argparse
 import collections

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "canopeer/fruit/superellipsoid_fit.h"
+#include "canopeer/fruit/shapes/superellipsoid_fit.h"
 
 namespace canopeer::testing_support {
 

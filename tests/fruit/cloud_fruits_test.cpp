@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "canopeer/base/rng.h"
-#include "canopeer/fruit/cloud_normals.h"
+#include "canopeer/fruit/surface/cloud_normals.h"
 
 namespace canopeer {
 namespace {

@@ -1,4 +1,4 @@
-#include "canopeer/fruit/confidence.h"
+#include "canopeer/fruit/confidence/confidence.h"
 
 #include <gtest/gtest.h>
 

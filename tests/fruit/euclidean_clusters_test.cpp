@@ -1,4 +1,4 @@
-#include "canopeer/fruit/euclidean_clusters.h"
+#include "canopeer/fruit/instances/euclidean_clusters.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "canopeer/fruit/frame_depths.h"
+#include "canopeer/fruit/surface/frame_depths.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "canopeer/fruit/fruit_surface.h"
+#include "canopeer/fruit/surface/fruit_surface.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "canopeer/fruit/fruit_tracker.h"
+#include "canopeer/fruit/instances/fruit_tracker.h"
 
 #include <gtest/gtest.h>
 

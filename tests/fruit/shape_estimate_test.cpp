@@ -1,4 +1,4 @@
-#include "canopeer/fruit/shape_estimate.h"
+#include "canopeer/fruit/shapes/shape_estimate.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "canopeer/fruit/superellipsoid_fit.h"
+#include "canopeer/fruit/shapes/superellipsoid_fit.h"
 
 #include <gtest/gtest.h>
 

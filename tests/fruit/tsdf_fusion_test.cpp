@@ -1,4 +1,4 @@
-#include "canopeer/fruit/tsdf_fusion.h"
+#include "canopeer/fruit/surface/tsdf_fusion.h"
 
 #include <gtest/gtest.h>
 

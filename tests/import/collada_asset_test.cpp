@@ -1,4 +1,4 @@
-#include "canopeer/import/collada_asset.h"
+#include "canopeer/import/meshes/collada_asset.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "canopeer/import/convex_hull.h"
+#include "canopeer/import/assembly/convex_hull.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "canopeer/import/extrusion.h"
+#include "canopeer/import/sdf/extrusion.h"
 
 #include <gtest/gtest.h>
 

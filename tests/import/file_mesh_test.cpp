@@ -1,4 +1,4 @@
-#include "canopeer/import/file_mesh.h"
+#include "canopeer/import/meshes/file_mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "canopeer/import/fruit_components.h"
+#include "canopeer/import/assembly/fruit_components.h"
 
 #include <gtest/gtest.h>
 

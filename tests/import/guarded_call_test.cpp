@@ -1,4 +1,4 @@
-#include "canopeer/import/guarded_call.h"
+#include "canopeer/import/meshes/guarded_call.h"
 
 #include <gtest/gtest.h>
 

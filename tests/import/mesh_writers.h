@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "canopeer/import/collada_asset.h"
+#include "canopeer/import/meshes/collada_asset.h"
 #include "canopeer/scene/scene.h"
 
 namespace canopeer::test {

@@ -1,4 +1,4 @@
-#include "canopeer/import/model_paths.h"
+#include "canopeer/import/sdf/model_paths.h"
 
 #include <gtest/gtest.h>
 

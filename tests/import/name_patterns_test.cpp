@@ -1,4 +1,4 @@
-#include "canopeer/import/name_patterns.h"
+#include "canopeer/import/assembly/name_patterns.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "canopeer/import/sdf_world.h"
+#include "canopeer/import/sdf/sdf_world.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "canopeer/base/rng.h"
-#include "canopeer/import/texture_file.h"
+#include "canopeer/import/meshes/texture_file.h"
 
 namespace canopeer {
 namespace {

@@ -1,4 +1,4 @@
-#include "canopeer/import/weld.h"
+#include "canopeer/import/assembly/weld.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "canopeer/import/texture_file.h"
+#include "canopeer/import/meshes/texture_file.h"
 #include "mesh_writers.h"
 #include "world_files.h"
 

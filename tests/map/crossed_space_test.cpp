@@ -1,4 +1,4 @@
-#include "canopeer/map/crossed_space.h"
+#include "canopeer/map/fusion/crossed_space.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "ball_scene.h"
-#include "canopeer/map/end_points.h"
+#include "canopeer/map/fusion/end_points.h"
 
 namespace canopeer {
 namespace {

@@ -1,4 +1,4 @@
-#include "canopeer/map/page_pool.h"
+#include "canopeer/map/storage/page_pool.h"
 
 #include <gtest/gtest.h>
 

@@ -7,12 +7,12 @@
 #include <limits>
 
 #include "ball_scene.h"
-#include "canopeer/map/distance_tile.h"
-#include "canopeer/map/frame_kernels.h"
-#include "canopeer/map/frontier_masks.h"
-#include "canopeer/map/log_odds_kernels.h"
-#include "canopeer/map/ray_kernels.h"
-#include "canopeer/map/slice_kernels.h"
+#include "canopeer/map/distances/distance_tile.h"
+#include "canopeer/map/frontiers/frontier_masks.h"
+#include "canopeer/map/fusion/frame_kernels.h"
+#include "canopeer/map/storage/log_odds_kernels.h"
+#include "canopeer/map/views/ray_kernels.h"
+#include "canopeer/map/views/slice_kernels.h"
 #include "canopeer/map/voxel_set.h"
 #include "same_map.h"
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "ball_scene.h"
-#include "canopeer/map/view_caster.h"
+#include "canopeer/map/views/view_caster.h"
 
 namespace canopeer {
 namespace {

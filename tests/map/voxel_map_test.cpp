@@ -9,9 +9,9 @@
 #include <map>
 
 #include "ball_scene.h"
-#include "canopeer/map/block_key_order.h"
-#include "canopeer/map/map_cloud.h"
-#include "canopeer/map/voxel_bounds.h"
+#include "canopeer/map/files/map_cloud.h"
+#include "canopeer/map/storage/block_key_order.h"
+#include "canopeer/map/storage/voxel_bounds.h"
 
 namespace canopeer {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "canopeer/robot/path_timing.h"
+#include "canopeer/robot/timing/path_timing.h"
 #include "canopeer/scene/worlds.h"
 #include "support/planning_fixture.h"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include "canopeer/scene/fruit_body.h"
+#include "canopeer/scene/plants/fruit_body.h"
 #include "canopeer/scene/worlds.h"
 
 namespace canopeer {

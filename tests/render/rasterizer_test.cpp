@@ -1,4 +1,4 @@
-#include "canopeer/render/rasterizer.h"
+#include "canopeer/render/raster/rasterizer.h"
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/task_arena.h>
@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "canopeer/base/rng.h"
-#include "canopeer/render/surface_plane.h"
+#include "canopeer/render/surfaces/surface_plane.h"
 #include "canopeer/scene/worlds.h"
 #include "reference_view.h"
 

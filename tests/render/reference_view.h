@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "canopeer/render/ray_caster.h"
+#include "canopeer/render/rays/ray_caster.h"
 #include "canopeer/render/renderer.h"
 
 namespace canopeer::testing_support {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "canopeer/scene/plant.h"
+#include "canopeer/scene/plants/plant.h"
 #include "canopeer/scene/worlds.h"
 #include "reference_view.h"
 

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "canopeer/base/rng.h"
-#include "canopeer/report/axis_ticks.h"
-#include "canopeer/report/base64.h"
-#include "canopeer/report/fruit_verdicts.h"
+#include "canopeer/report/drawing/axis_ticks.h"
+#include "canopeer/report/drawing/base64.h"
+#include "canopeer/report/fruits/fruit_verdicts.h"
 #include "canopeer/report/html_text.h"
 #include "canopeer/report/sample_spread.h"
 #include "canopeer/report/svg_plot.h"

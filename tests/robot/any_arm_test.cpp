@@ -3,7 +3,7 @@
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <numbers>
 
-#include "canopeer/robot/sin_cos.h"
+#include "canopeer/robot/kinematics/sin_cos.h"
 #include "canopeer/robot/view_ik.h"
 #include "kdl_chain.h"
 #include "robot_fixture.h"

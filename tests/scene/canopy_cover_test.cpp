@@ -1,4 +1,4 @@
-#include "canopeer/scene/canopy_cover.h"
+#include "canopeer/scene/plants/canopy_cover.h"
 
 #include <gtest/gtest.h>
 

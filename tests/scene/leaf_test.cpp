@@ -1,4 +1,4 @@
-#include "canopeer/scene/leaf.h"
+#include "canopeer/scene/plants/leaf.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "canopeer/scene/plant.h"
+#include "canopeer/scene/plants/plant.h"
 
 #include <gtest/gtest.h>
 

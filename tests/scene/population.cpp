@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "canopeer/scene/fruit_body.h"
+#include "canopeer/scene/plants/fruit_body.h"
 
 namespace canopeer::test {
 namespace {

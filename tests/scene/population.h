@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "canopeer/scene/plant.h"
+#include "canopeer/scene/plants/plant.h"
 
 namespace canopeer::test {
 

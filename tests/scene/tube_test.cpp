@@ -1,4 +1,4 @@
-#include "canopeer/scene/tube.h"
+#include "canopeer/scene/plants/tube.h"
 
 #include <gtest/gtest.h>
 

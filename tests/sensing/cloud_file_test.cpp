@@ -9,7 +9,7 @@
 #include "canopeer/base/atomic_file.h"
 #include "canopeer/base/byte_order.h"
 #include "canopeer/base/rng.h"
-#include "canopeer/sensing/lzf.h"
+#include "canopeer/sensing/files/lzf.h"
 
 namespace canopeer {
 namespace {

@@ -6,12 +6,12 @@
 #include <array>
 #include <cmath>
 
-#include "canopeer/fruit/cloud_normals.h"
-#include "canopeer/fruit/euclidean_clusters.h"
-#include "canopeer/fruit/fruit_separation.h"
+#include "canopeer/fruit/confidence/plausibility.h"
+#include "canopeer/fruit/instances/euclidean_clusters.h"
+#include "canopeer/fruit/instances/fruit_separation.h"
+#include "canopeer/fruit/instances/piece_filter.h"
 #include "canopeer/fruit/missing_surface.h"
-#include "canopeer/fruit/piece_filter.h"
-#include "canopeer/fruit/plausibility.h"
+#include "canopeer/fruit/surface/cloud_normals.h"
 
 namespace canopeer {
 namespace {

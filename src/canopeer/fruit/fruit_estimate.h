@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "canopeer/fruit/row_place.h"
+#include "canopeer/fruit/confidence/row_place.h"
 #include "canopeer/geometry/superellipsoid.h"
 #include "canopeer/sensing/rgbd_frame.h"
 

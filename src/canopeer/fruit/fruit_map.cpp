@@ -6,8 +6,8 @@
 #include <unordered_map>
 
 #include "canopeer/base/check.h"
-#include "canopeer/fruit/fruit_map_state.h"
-#include "canopeer/fruit/voxel_key.h"
+#include "canopeer/fruit/surface/voxel_key.h"
+#include "canopeer/fruit/updates/fruit_map_state.h"
 
 namespace canopeer {
 

@@ -5,8 +5,8 @@
 
 #include "canopeer/fruit/fruit_estimate.h"
 #include "canopeer/fruit/fruit_map_options.h"
-#include "canopeer/fruit/fruit_surface.h"
-#include "canopeer/fruit/fruit_tracker.h"
+#include "canopeer/fruit/instances/fruit_tracker.h"
+#include "canopeer/fruit/surface/fruit_surface.h"
 #include "canopeer/sensing/image.h"
 #include "canopeer/sensing/point_cloud.h"
 #include "canopeer/sensing/rgbd_frame.h"

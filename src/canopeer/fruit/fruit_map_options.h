@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "canopeer/base/expected.h"
-#include "canopeer/fruit/confidence.h"
-#include "canopeer/fruit/fruit_tsdf.h"
-#include "canopeer/fruit/row_place.h"
-#include "canopeer/fruit/superellipsoid_fit.h"
+#include "canopeer/fruit/confidence/confidence.h"
+#include "canopeer/fruit/confidence/row_place.h"
+#include "canopeer/fruit/shapes/superellipsoid_fit.h"
+#include "canopeer/fruit/surface/fruit_tsdf.h"
 
 namespace canopeer {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "canopeer/base/expected.h"
-#include "canopeer/fruit/fruit_surface.h"
+#include "canopeer/fruit/surface/fruit_surface.h"
 
 namespace canopeer {
 

@@ -5,11 +5,11 @@
 #include <cctype>
 
 #include "canopeer/base/atomic_file.h"
-#include "canopeer/import/collada_asset.h"
-#include "canopeer/import/file_mesh.h"
-#include "canopeer/import/guarded_call.h"
-#include "canopeer/import/material_painter.h"
-#include "canopeer/import/mesh_library.h"
+#include "canopeer/import/meshes/collada_asset.h"
+#include "canopeer/import/meshes/file_mesh.h"
+#include "canopeer/import/meshes/guarded_call.h"
+#include "canopeer/import/meshes/material_painter.h"
+#include "canopeer/import/meshes/mesh_library.h"
 
 namespace canopeer {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "canopeer/base/expected.h"
-#include "canopeer/import/mesh_piece.h"
-#include "canopeer/import/texture_file.h"
+#include "canopeer/import/meshes/mesh_piece.h"
+#include "canopeer/import/meshes/texture_file.h"
 
 namespace canopeer {
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "canopeer/base/atomic_file.h"
-#include "canopeer/import/texture_file.h"
+#include "canopeer/import/meshes/texture_file.h"
 
 namespace canopeer {
 namespace {

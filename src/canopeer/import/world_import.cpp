@@ -7,8 +7,8 @@
 #include <set>
 
 #include "canopeer/import/mesh_file.h"
-#include "canopeer/import/model_paths.h"
-#include "canopeer/import/sdf_world.h"
+#include "canopeer/import/sdf/model_paths.h"
+#include "canopeer/import/sdf/sdf_world.h"
 
 namespace canopeer {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "canopeer/base/expected.h"
-#include "canopeer/import/name_patterns.h"
-#include "canopeer/import/scene_assembly.h"
+#include "canopeer/import/assembly/name_patterns.h"
+#include "canopeer/import/assembly/scene_assembly.h"
 
 namespace canopeer {
 

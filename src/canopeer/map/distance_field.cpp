@@ -8,8 +8,8 @@
 #include <cstring>
 
 #include "canopeer/base/check.h"
-#include "canopeer/map/distance_tile.h"
-#include "canopeer/map/voxel_bounds.h"
+#include "canopeer/map/distances/distance_tile.h"
+#include "canopeer/map/storage/voxel_bounds.h"
 
 namespace canopeer {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <tbb/parallel_for.h>
 
-#include "canopeer/map/block_surroundings.h"
-#include "canopeer/map/frontier_lists.h"
-#include "canopeer/map/frontier_masks.h"
-#include "canopeer/map/voxel_bounds.h"
+#include "canopeer/map/frontiers/block_surroundings.h"
+#include "canopeer/map/frontiers/frontier_lists.h"
+#include "canopeer/map/frontiers/frontier_masks.h"
+#include "canopeer/map/storage/voxel_bounds.h"
 
 namespace canopeer {
 

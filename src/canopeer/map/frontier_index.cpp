@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "canopeer/base/check.h"
-#include "canopeer/map/block_surroundings.h"
-#include "canopeer/map/frontier_lists.h"
-#include "canopeer/map/voxel_bounds.h"
+#include "canopeer/map/frontiers/block_surroundings.h"
+#include "canopeer/map/frontiers/frontier_lists.h"
+#include "canopeer/map/storage/voxel_bounds.h"
 
 namespace canopeer {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "canopeer/map/frontier.h"
-#include "canopeer/map/frontier_masks.h"
+#include "canopeer/map/frontiers/frontier_masks.h"
 
 namespace canopeer {
 

@@ -4,12 +4,12 @@
 #include <utility>
 #include <vector>
 
-#include "canopeer/map/block_directory.h"
-#include "canopeer/map/crossed_space.h"
-#include "canopeer/map/end_points.h"
-#include "canopeer/map/frame_kernels.h"
-#include "canopeer/map/free_space.h"
-#include "canopeer/map/kept.h"
+#include "canopeer/map/fusion/crossed_space.h"
+#include "canopeer/map/fusion/end_points.h"
+#include "canopeer/map/fusion/frame_kernels.h"
+#include "canopeer/map/fusion/free_space.h"
+#include "canopeer/map/storage/block_directory.h"
+#include "canopeer/map/storage/kept.h"
 
 namespace canopeer {
 namespace {

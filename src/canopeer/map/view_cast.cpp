@@ -5,7 +5,7 @@
 
 #include "canopeer/base/check.h"
 #include "canopeer/geometry/voxel_ray.h"
-#include "canopeer/map/view_caster.h"
+#include "canopeer/map/views/view_caster.h"
 
 namespace canopeer {
 namespace {

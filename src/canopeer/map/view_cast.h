@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "canopeer/geometry/pose.h"
-#include "canopeer/map/block_set.h"
+#include "canopeer/map/views/block_set.h"
 #include "canopeer/map/voxel_map.h"
 #include "canopeer/map/voxel_set.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "canopeer/base/check.h"
-#include "canopeer/map/voxel_bounds.h"
+#include "canopeer/map/storage/voxel_bounds.h"
 
 namespace canopeer {
 namespace {

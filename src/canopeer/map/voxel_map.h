@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "canopeer/base/expected.h"
-#include "canopeer/map/block.h"
-#include "canopeer/map/block_directory.h"
-#include "canopeer/map/log_odds_kernels.h"
-#include "canopeer/map/paged_array.h"
+#include "canopeer/map/storage/block.h"
+#include "canopeer/map/storage/block_directory.h"
+#include "canopeer/map/storage/log_odds_kernels.h"
+#include "canopeer/map/storage/paged_array.h"
 
 namespace canopeer {
 

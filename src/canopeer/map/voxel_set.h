@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "canopeer/map/block.h"
+#include "canopeer/map/storage/block.h"
 
 namespace canopeer {
 

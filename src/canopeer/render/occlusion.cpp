@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "canopeer/base/rng.h"
-#include "canopeer/render/ray_caster.h"
+#include "canopeer/render/rays/ray_caster.h"
 
 namespace canopeer {
 namespace {

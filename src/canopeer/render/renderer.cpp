@@ -11,10 +11,10 @@
 #include <span>
 
 #include "canopeer/base/check.h"
-#include "canopeer/render/pixel_hash.h"
-#include "canopeer/render/rasterizer.h"
-#include "canopeer/render/ray_caster.h"
-#include "canopeer/render/row_painter.h"
+#include "canopeer/render/raster/rasterizer.h"
+#include "canopeer/render/rays/ray_caster.h"
+#include "canopeer/render/shading/row_painter.h"
+#include "canopeer/render/surfaces/pixel_hash.h"
 
 namespace canopeer {
 namespace {

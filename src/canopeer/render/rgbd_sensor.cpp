@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "canopeer/base/rng.h"
-#include "canopeer/render/pixel_hash.h"
+#include "canopeer/render/surfaces/pixel_hash.h"
 
 namespace canopeer {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "canopeer/base/check.h"
-#include "canopeer/render/pixel_hash.h"
+#include "canopeer/render/surfaces/pixel_hash.h"
 
 namespace canopeer {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "canopeer/report/fruit_silhouette.h"
+#include "canopeer/report/drawing/plot_style.h"
+#include "canopeer/report/fruits/fruit_silhouette.h"
 #include "canopeer/report/html_text.h"
-#include "canopeer/report/plot_style.h"
 
 namespace canopeer {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "canopeer/report/drawing/page_style.h"
+#include "canopeer/report/drawing/plot_style.h"
 #include "canopeer/report/html_text.h"
-#include "canopeer/report/page_style.h"
-#include "canopeer/report/plot_style.h"
 
 namespace canopeer {
 

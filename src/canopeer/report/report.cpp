@@ -1,9 +1,9 @@
 #include "canopeer/report/report.h"
 
 #include "canopeer/base/atomic_file.h"
-#include "canopeer/report/fruit_map_svg.h"
+#include "canopeer/report/fruits/fruit_map_svg.h"
 #include "canopeer/report/html_parts.h"
-#include "canopeer/report/report_sections.h"
+#include "canopeer/report/sections/report_sections.h"
 
 namespace canopeer {
 namespace {

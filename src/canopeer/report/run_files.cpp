@@ -8,7 +8,7 @@
 #include "canopeer/base/csv_table.h"
 #include "canopeer/fruit/fruits_csv.h"
 #include "canopeer/record/record_file.h"
-#include "canopeer/report/killed_run.h"
+#include "canopeer/report/reading/killed_run.h"
 
 namespace canopeer {
 namespace {

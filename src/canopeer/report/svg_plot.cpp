@@ -6,9 +6,9 @@
 #include <cmath>
 #include <functional>
 
-#include "canopeer/report/axis_ticks.h"
+#include "canopeer/report/drawing/axis_ticks.h"
+#include "canopeer/report/drawing/plot_style.h"
 #include "canopeer/report/html_text.h"
-#include "canopeer/report/plot_style.h"
 
 namespace canopeer {
 namespace {

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "canopeer/geometry/pose.h"
-#include "canopeer/robot/blended_path.h"
 #include "canopeer/robot/robot_model.h"
 #include "canopeer/robot/sphere_cover.h"
+#include "canopeer/robot/timing/blended_path.h"
 
 namespace canopeer {
 

@@ -7,8 +7,8 @@
 
 #include "canopeer/base/expected.h"
 #include "canopeer/geometry/pose.h"
-#include "canopeer/robot/arm_chain.h"
 #include "canopeer/robot/configuration.h"
+#include "canopeer/robot/kinematics/arm_chain.h"
 #include "canopeer/robot/robot_description.h"
 
 namespace canopeer {

@@ -6,8 +6,8 @@
 
 #include "canopeer/base/check.h"
 #include "canopeer/base/rng.h"
-#include "canopeer/robot/closed_form_ik.h"
-#include "canopeer/robot/numeric_ik.h"
+#include "canopeer/robot/ik/closed_form_ik.h"
+#include "canopeer/robot/ik/numeric_ik.h"
 
 namespace canopeer {
 namespace {

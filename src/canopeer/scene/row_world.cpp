@@ -4,10 +4,10 @@
 #include <map>
 #include <utility>
 
-#include "canopeer/scene/distractors.h"
 #include "canopeer/scene/flat_faces.h"
-#include "canopeer/scene/plant_rows.h"
-#include "canopeer/scene/tube.h"
+#include "canopeer/scene/plants/tube.h"
+#include "canopeer/scene/rows/distractors.h"
+#include "canopeer/scene/rows/plant_rows.h"
 
 namespace canopeer {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "canopeer/scene/plant_kind.h"
+#include "canopeer/scene/plants/plant_kind.h"
 #include "canopeer/scene/scene.h"
 
 namespace canopeer {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "canopeer/base/atomic_file.h"
-#include "canopeer/sensing/timed_files.h"
+#include "canopeer/sensing/files/timed_files.h"
 
 namespace canopeer {
 namespace {

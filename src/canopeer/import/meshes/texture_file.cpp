@@ -1,0 +1,158 @@
+#include "canopeer/import/meshes/texture_file.h"
+
+#include <jpeglib.h>
+#include <png.h>
+
+#include <csetjmp>
+#include <cstdio>  // jpeglib.h needs it and does not say so
+#include <cstring>
+#include <vector>
+
+#include "canopeer/base/atomic_file.h"
+
+namespace canopeer {
+namespace {
+
+constexpr std::size_t kMaxPixels = 128U << 20;  // a broken header must not eat all memory
+
+Expected<Texture> decode_png(std::string_view bytes, const std::string& name) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0) {
+    return fail(name + ": " + png.message);
+  }
+  const bool alpha = (png.format & PNG_FORMAT_FLAG_ALPHA) != 0;
+  png.format = PNG_FORMAT_RGBA;
+  if (static_cast<std::size_t>(png.width) * png.height > kMaxPixels) {
+    png_image_free(&png);
+    return fail(name + ": the picture is too big");
+  }
+  std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(png));
+  if (png_image_finish_read(&png, nullptr, pixels.data(), 0, nullptr) == 0) {
+    const std::string reason = png.message;
+    png_image_free(&png);
+    return fail(name + ": " + reason);
+  }
+  Texture texture;
+  texture.name = name;
+  texture.color = ColorImage(static_cast<int>(png.width), static_cast<int>(png.height));
+  if (alpha) {
+    texture.opacity =
+        Image<std::uint8_t>(static_cast<int>(png.width), static_cast<int>(png.height));
+  }
+  for (std::size_t i = 0; i < texture.color.pixels().size(); ++i) {
+    texture.color.pixels()[i] = {pixels[4 * i], pixels[4 * i + 1], pixels[4 * i + 2]};
+    if (alpha) texture.opacity.pixels()[i] = pixels[4 * i + 3];
+  }
+  return texture;
+}
+
+struct JpegErrors {
+  jpeg_error_mgr manager;
+  std::jmp_buf jump;
+  char message[JMSG_LENGTH_MAX];
+};
+
+/// libjpeg leaves by longjmp when a file is broken: all with a destructor lives in the caller.
+bool decode_jpeg_into(std::string_view bytes, JpegErrors* errors, std::vector<std::uint8_t>* pixels,
+                      int* width, int* height) {
+  jpeg_decompress_struct jpeg;
+  std::memset(&jpeg, 0, sizeof jpeg);
+  jpeg.err = jpeg_std_error(&errors->manager);
+  errors->manager.error_exit = [](j_common_ptr common) {
+    auto* const self = reinterpret_cast<JpegErrors*>(common->err);
+    self->manager.format_message(common, self->message);
+    std::longjmp(self->jump, 1);
+  };
+  errors->manager.output_message = [](j_common_ptr) {};
+  if (setjmp(errors->jump) != 0) {
+    jpeg_destroy_decompress(&jpeg);
+    return false;
+  }
+  jpeg_create_decompress(&jpeg);
+  jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+  jpeg_read_header(&jpeg, TRUE);
+  jpeg.out_color_space = JCS_RGB;
+  if (static_cast<std::size_t>(jpeg.image_width) * jpeg.image_height > kMaxPixels) {
+    std::strcpy(errors->message, "the picture is too big");
+    jpeg_destroy_decompress(&jpeg);
+    return false;
+  }
+  jpeg_start_decompress(&jpeg);
+  *width = static_cast<int>(jpeg.output_width);
+  *height = static_cast<int>(jpeg.output_height);
+  const std::size_t row_bytes = 3U * jpeg.output_width;
+  pixels->resize(row_bytes * jpeg.output_height);
+  while (jpeg.output_scanline < jpeg.output_height) {
+    JSAMPROW row = pixels->data() + row_bytes * jpeg.output_scanline;
+    jpeg_read_scanlines(&jpeg, &row, 1);
+  }
+  jpeg_finish_decompress(&jpeg);
+  jpeg_destroy_decompress(&jpeg);
+  return true;
+}
+
+Expected<Texture> decode_jpeg(std::string_view bytes, const std::string& name) {
+  JpegErrors errors;
+  std::vector<std::uint8_t> pixels;
+  int width = 0;
+  int height = 0;
+  if (!decode_jpeg_into(bytes, &errors, &pixels, &width, &height)) {
+    return fail(name + ": " + errors.message);
+  }
+  Texture texture;
+  texture.name = name;
+  texture.color = ColorImage(width, height);
+  for (std::size_t i = 0; i < texture.color.pixels().size(); ++i) {
+    texture.color.pixels()[i] = {pixels[3 * i], pixels[3 * i + 1], pixels[3 * i + 2]};
+  }
+  return texture;
+}
+
+}  // namespace
+
+Expected<Texture> decode_texture(std::string_view bytes, const std::string& name) {
+  if (bytes.starts_with("\x89PNG")) return decode_png(bytes, name);
+  if (bytes.starts_with("\xff\xd8\xff")) return decode_jpeg(bytes, name);
+  return fail(name + ": expected a PNG or JPEG picture");
+}
+
+Expected<std::string> encode_texture(const Texture& texture) {
+  if (texture.color.empty()) return fail(texture.name + ": has no colours to write");
+  const bool alpha = texture.opacity.width() == texture.color.width() &&
+                     texture.opacity.height() == texture.color.height();
+  std::vector<std::uint8_t> pixels;
+  for (std::size_t i = 0; i < texture.color.pixels().size(); ++i) {
+    const Rgb& c = texture.color.pixels()[i];
+    pixels.insert(pixels.end(), {c.r, c.g, c.b});
+    if (alpha) pixels.push_back(texture.opacity.pixels()[i]);
+  }
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = static_cast<png_uint_32>(texture.color.width());
+  png.height = static_cast<png_uint_32>(texture.color.height());
+  png.format = alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
+  std::string bytes(size, '\0');
+  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, pixels.data(), 0, nullptr) == 0) {
+    return fail(texture.name + ": cannot be written as PNG: " + png.message);
+  }
+  bytes.resize(size);
+  return bytes;
+}
+
+TextureStore::Result TextureStore::get(const std::filesystem::path& path) {
+  const std::string key = path.lexically_normal().string();
+  if (const auto known = read_.find(key); known != read_.end()) return known->second;
+  Result result = fail("");
+  if (const auto bytes = read_file(path); !bytes) {
+    result = tl::unexpected(bytes.error());
+  } else if (auto texture = decode_texture(*bytes, path.string()); !texture) {
+    result = tl::unexpected(texture.error());
+  } else {
+    result = std::make_shared<const Texture>(std::move(*texture));
+  }
+  return read_.emplace(key, std::move(result)).first->second;
+}
+
+}  // namespace canopeer

@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include "canopeer/report/html_parts.h"
+#include "canopeer/report/html_text.h"
+#include "canopeer/report/sections/report_sections.h"
+
+namespace canopeer {
+namespace {
+
+std::string card(const std::string& value, const std::string& label, const char* css_class = "") {
+  return fmt::format("<div class=\"card {}\"><b>{}</b><span>{}</span></div>\n", css_class, value,
+                     label);
+}
+
+std::string of_total(int count, const std::optional<int>& total) {
+  if (!total) return std::to_string(count);
+  return fmt::format("{} <small>of {}</small>", count, *total);
+}
+
+std::string fruit_cards(const Summary& s) {
+  if (!s.detected) return card(std::to_string(s.fruits_reported), "fruits reported", "main");
+  std::string cards =
+      card(of_total(*s.detected, s.fruits_total), "fruits found, centre within 5 cm", "main");
+  if (s.detected_paper) {
+    cards += card(of_total(*s.detected_paper, s.fruits_total),
+                  "found as the paper counts, within 20 cm");
+  }
+  if (s.false_positives) {
+    cards += card(std::to_string(*s.false_positives), "false positives: no fruit within 5 cm");
+  }
+  return cards;
+}
+
+std::string begun_of_planned(const ReportData& data) {
+  const int planned = data.files.record.header.segments;
+  const int begun = data.files.summary.segments;
+  return begun == planned ? fmt::format("{} segment{}", planned, planned == 1 ? "" : "s")
+                          : fmt::format("{} of {} segments", begun, planned);
+}
+
+}  // namespace
+
+std::string headline_section(const ReportData& data) {
+  const Summary& s = data.files.summary;
+  std::string html = fmt::format(
+      "<header>\n<h1>{}</h1>\n<p class=\"sub\">planner {} · seed {} · compute table {} · "
+      "canopeer {}</p>\n</header>\n",
+      escape_html(s.mission), escape_html(s.planner), s.seed, escape_html(s.compute_table),
+      escape_html(s.canopeer_version));
+  if (s.interrupted || data.files.record.interrupted) {
+    html += fmt::format(
+        "<p class=\"notice\">This run was interrupted after {} ({}). What it had "
+        "earned until then is below.</p>\n",
+        duration_text(s.sim_time_s), begun_of_planned(data));
+  }
+  html += "<div class=\"cards\">\n" + fruit_cards(s);
+  html += card(duration_text(s.sim_time_s), "mission time, " + begun_of_planned(data));
+  html += card(std::to_string(s.views), "views");
+  html += card(std::to_string(s.collisions), "collisions", s.collisions > 0 ? "bad" : "");
+  html += card(std::to_string(s.plant_contacts), "contacts with plant parts not seen before");
+  if (s.wall_time_s > 0.0) html += card(duration_text(s.wall_time_s), "computing time of this run");
+  return html + "</div>\n";
+}
+
+std::string figures_section(const ReportData& data) {
+  const Summary& s = data.files.summary;
+  const auto seconds = [](const std::optional<double>& t) {
+    return t ? duration_text(*t) : std::string("–");
+  };
+  const auto percent = [](const std::optional<double>& share) {
+    return share ? fmt::format("{:.1f} %", 100.0 * *share) : std::string("–");
+  };
+  const auto count = [](const std::optional<int>& n) {
+    return n ? std::to_string(*n) : std::string("–");
+  };
+  const std::vector<std::pair<std::string, std::string>> figures = {
+      {"50 % of the fruits found after", seconds(s.time_to_50pct_s)},
+      {"80 % after", seconds(s.time_to_80pct_s)},
+      {"90 % after", seconds(s.time_to_90pct_s)},
+      {"Share found, mean over time (AUC)", percent(s.auc)},
+      {"Found with volume accuracy above ½", count(s.ma50)},
+      {"False positives at 20 cm", count(s.false_positives_paper)},
+      {"Centre error, mean",
+       s.centre_error_mean_m ? fmt::format("{:.1f} mm", 1e3 * *s.centre_error_mean_m) : "–"},
+      {"Volume error, mean", percent(s.volume_error_mean)},
+      {"Fruit surface seen", percent(s.roi_surface_coverage)},
+      {"Of fruits seen to 30 %: found",
+       s.fruits_seen_30pct && s.detected_seen_30pct
+           ? fmt::format("{} of {}", *s.detected_seen_30pct, *s.fruits_seen_30pct)
+           : "–"},
+      {"F1 of these", s.f1_seen_30pct ? fmt::format("{:.3f}", *s.f1_seen_30pct) : "–"},
+      {"ROI voxels at the end", count_text(s.roi_voxels)},
+      {"Joint path length", fmt::format("{:.1f} rad", s.joint_path_length_rad)},
+      {"Arm and trolley moving", duration_text(s.motion_time_s)},
+      {"Standing still to map and plan", duration_text(s.planning_time_s)}};
+  std::string html = "<dl>\n";
+  for (const auto& [name, value] : figures) {
+    html += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, value);
+  }
+  return html_section("All figures", html + "</dl>\n");
+}
+
+}  // namespace canopeer

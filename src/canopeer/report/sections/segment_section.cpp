@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "canopeer/report/html_parts.h"
+#include "canopeer/report/html_text.h"
+#include "canopeer/report/sections/report_sections.h"
+#include "canopeer/report/view_intervals.h"
+
+namespace canopeer {
+namespace {
+
+/// Value of `count` after the last view before `until_s`; 0 when there is none.
+template <typename Events, typename Count>
+long long at_time(const Events& events, double until_s, Count count) {
+  long long value = 0;
+  for (const auto& event : events) {
+    if (event.t_s <= until_s) value = count(event);
+  }
+  return value;
+}
+
+std::string gain(long long before, long long after) {
+  const long long change = after - before;
+  return (change > 0 ? "+" : "") + count_text(change);
+}
+
+struct Motions {
+  double moving_s = 0.0;
+  int collisions = 0;
+  int contacts = 0;
+};
+
+Motions motions_of(const RunRecord& record, int segment) {
+  Motions sum;
+  for (const MotionEvent& motion : record.motions) {
+    if (motion.segment != segment) continue;
+    sum.moving_s += motion.duration_s;
+    sum.collisions += motion.collision ? 1 : 0;
+    sum.contacts += motion.plant_contact ? 1 : 0;
+  }
+  return sum;
+}
+
+double planning_of(const RunRecord& record, int segment) {
+  double sum = 0.0;
+  for (const ViewEvent& view : record.views) {
+    if (view.segment == segment) sum += view.planning_s;
+  }
+  return sum;
+}
+
+std::string fruits_gained(const ReportData& data, double from_s, double to_s) {
+  if (!data.found.empty()) {
+    const auto count = [](const FoundAtTime& f) { return f.detected; };
+    return gain(at_time(data.found, from_s, count), at_time(data.found, to_s, count));
+  }
+  const std::vector<ViewEvent>& views = data.files.record.views;
+  const auto count = [](const ViewEvent& v) { return static_cast<long long>(v.fruits.size()); };
+  return gain(at_time(views, from_s, count), at_time(views, to_s, count));
+}
+
+}  // namespace
+
+std::string segment_section(const ReportData& data) {
+  const RunRecord& record = data.files.record;
+  const std::vector<std::vector<double>> intervals = view_intervals(record);
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < record.segments.size(); ++i) {
+    const SegmentEvent& segment = record.segments[i];
+    const auto views =
+        std::count_if(record.views.begin(), record.views.end(),
+                      [&](const ViewEvent& view) { return view.segment == segment.segment; });
+    // Up to where the next one begins: frames of the transition between them belong to this one.
+    const double from_s = i == 0 ? -1.0 : segment.start_s;
+    const double to_s =
+        i + 1 < record.segments.size() ? record.segments[i + 1].start_s : record.end_s;
+    const auto roi = [](const ViewEvent& view) { return view.roi_voxels; };
+    const Motions motions = motions_of(record, segment.segment);
+    rows.push_back(
+        {fmt::format("{}: {}", segment.segment + 1, escape_html(segment.name)),
+         fmt::format("{:.0f}", segment.start_s),
+         fmt::format("{:.1f}", segment.end_s - segment.start_s), std::to_string(views),
+         fruits_gained(data, from_s, to_s),
+         gain(at_time(record.views, from_s, roi), at_time(record.views, to_s, roi)),
+         intervals[i].empty() ? "–" : fmt::format("{:.2f}", sample_spread(intervals[i]).median),
+         fmt::format("{:.1f}", motions.moving_s),
+         fmt::format("{:.1f}", planning_of(record, segment.segment)),
+         std::to_string(motions.collisions), std::to_string(motions.contacts)});
+  }
+  if (rows.empty()) return {};
+  return html_section(
+      "Segments", html_table({"Segment", "begin<br>s", "length<br>s", "views",
+                              data.found.empty() ? "fruits<br>reported" : "fruits found<br>(5 cm)",
+                              "ROI<br>voxels", "between views,<br>median s", "moving<br>s",
+                              "planning<br>s", "colli-<br>sions", "plant<br>contacts"},
+                             rows));
+}
+
+}  // namespace canopeer

@@ -1,0 +1,186 @@
+#include "canopeer/robot/ik/numeric_ik.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+#include "canopeer/base/rng.h"
+
+namespace canopeer {
+namespace {
+
+constexpr int kTableSize = 2048;
+constexpr int kMaxStarts = 32;
+constexpr float kMetresPerRadian = 0.3F;  // how far off a camera's axis is, next to how far away
+constexpr int kMaxIterations = 40;
+constexpr int kPatience = 4;           // steps in a row that do not halve the error
+constexpr double kConverged = 1e-9;    // m and rad
+constexpr double kGiveUpAbove = 0.05;  // error after a while that no good end comes of
+constexpr double kLongestStep = 0.6;   // rad or m, any joint
+constexpr double kDistinct = 0.1;      // solutions nearer to each other count once
+
+/// Turn that brings `from` onto `to`, as axis times angle; unit vectors.
+Vec3 turn_between(const Vec3& from, const Vec3& to) {
+  const Vec3 axis = from.cross(to);
+  const double sine = axis.norm();
+  const double cosine = from.dot(to);
+  if (sine < 1e-12) return cosine > 0.0 ? Vec3(Vec3::Zero()) : Vec3(3.1 * from.unitOrthogonal());
+  return axis * (std::atan2(sine, cosine) / sine);
+}
+
+Vec3 turn_between(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
+  const Eigen::Matrix3d R = to * from.transpose();
+  const Vec3 twice_sine_axis(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
+  const double sine = twice_sine_axis.norm() / 2.0;
+  const double angle = std::atan2(sine, (R.trace() - 1.0) / 2.0);
+  if (sine > 1e-9) return twice_sine_axis * (angle / (2.0 * sine));
+  if (angle < 1.0) return twice_sine_axis / 2.0;
+  const Eigen::AngleAxisd half_turn(R);
+  return half_turn.angle() * half_turn.axis();
+}
+
+}  // namespace
+
+NumericIk::NumericIk(const RobotModel& robot) : robot_(robot) {
+  Rng rng(1, "numeric-ik");
+  for (int k = 0; k < kTableSize; ++k) {
+    Configuration q(robot_.dof());
+    for (int i = 0; i < q.size(); ++i)
+      q[i] = rng.uniform(robot_.limits().lower[i], robot_.limits().upper[i]);
+    const Pose T = robot_.T_base_camera(q);
+    for (int i = 0; i < 3; ++i) {
+      camera_[i].push_back(static_cast<float>(T.translation()[i]));
+      camera_[3 + i].push_back(static_cast<float>(T.linear()(i, 2)));
+    }
+    table_.push_back(q);
+  }
+}
+
+/// Rows of the table with the cameras nearest to the goal's, best first.
+int NumericIk::nearest_starts(const Goal& goal, int count, int* rows) const {
+  const Eigen::Vector3f p = goal.T_base_camera.translation().cast<float>();
+  const Eigen::Vector3f z = goal.T_base_camera.linear().col(2).cast<float>();
+  std::array<float, kTableSize> score;
+  constexpr float kWeight = kMetresPerRadian * kMetresPerRadian;
+  for (std::size_t k = 0; k < kTableSize; ++k) {
+    const float dx = camera_[0][k] - p.x();
+    const float dy = camera_[1][k] - p.y();
+    const float dz = camera_[2][k] - p.z();
+    const float ux = camera_[3][k] - z.x();
+    const float uy = camera_[4][k] - z.y();
+    const float uz = camera_[5][k] - z.z();
+    score[k] = dx * dx + dy * dy + dz * dz + kWeight * (ux * ux + uy * uy + uz * uz);
+  }
+  int found = 0;
+  float worst = std::numeric_limits<float>::infinity();
+  for (int k = 0; k < kTableSize; ++k) {
+    const float own = score[static_cast<std::size_t>(k)];
+    if (found == count && own >= worst) continue;
+    int place = found < count ? found++ : count - 1;
+    for (; place > 0 && score[static_cast<std::size_t>(rows[place - 1])] > own; --place)
+      rows[place] = rows[place - 1];
+    rows[place] = k;
+    worst = score[static_cast<std::size_t>(rows[found - 1])];
+  }
+  return found;
+}
+
+template <int kEquations>
+bool NumericIk::converge(const Goal& goal, Configuration& q) const {
+  using Matrix =
+      Eigen::Matrix<double, kEquations, Eigen::Dynamic, Eigen::ColMajor, kEquations, kMaxArmJoints>;
+  using Square = Eigen::Matrix<double, kEquations, kEquations>;
+  using Vector = Eigen::Matrix<double, kEquations, 1>;
+  const Configuration& lower = robot_.limits().lower;
+  const Configuration& upper = robot_.limits().upper;
+  const int dof = robot_.dof();
+  Pose T;
+  RobotModel::Jacobian full;
+  Matrix J(kEquations, dof);
+  double best = std::numeric_limits<double>::infinity();
+  int stuck = 0;
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    robot_.camera_jacobian(q, T, full);
+    Vector error;
+    error.template head<3>() = goal.T_base_camera.translation() - T.translation();
+    if constexpr (kEquations == 5) {
+      // A turn about the optical axis is free: only the parts along the image's axes count.
+      const Vec3 turn =
+          turn_between(Vec3(T.linear().col(2)), Vec3(goal.T_base_camera.linear().col(2)));
+      const Eigen::Matrix<double, 2, 3> image = T.linear().template leftCols<2>().transpose();
+      error.template tail<2>() = image * turn;
+      J.template topRows<3>() = full.template topRows<3>();
+      J.template bottomRows<2>() = image * full.template bottomRows<3>();
+    } else {
+      error.template tail<3>() =
+          turn_between(Eigen::Matrix3d(T.linear()), Eigen::Matrix3d(goal.T_base_camera.linear()));
+      J = full;
+    }
+    const double size = error.norm();
+    if (size < kConverged) return true;
+    stuck = size < 0.5 * best ? 0 : stuck + 1;
+    best = std::min(best, size);
+    if (stuck > kPatience && size > kGiveUpAbove) return false;
+    if (stuck > 3 * kPatience) return false;
+
+    // Δq = Jᵀ (J Jᵀ + λ)⁻¹ e with λ = ½|e|² + ε; columns of joints that a limit holds are left out.
+    Configuration step(dof);
+    for (int round = 0; round < 3; ++round) {
+      Square A = J * J.transpose();
+      A.diagonal().array() += 0.5 * size * size * 1e-2 + 1e-12;
+      step.noalias() = J.transpose() * Eigen::LLT<Square>(A).solve(error);
+      bool held = false;
+      for (int i = 0; i < dof; ++i) {
+        const bool out = (q[i] <= lower[i] && step[i] < 0.0) || (q[i] >= upper[i] && step[i] > 0.0);
+        if (!out || J.col(i).isZero(0.0)) continue;
+        J.col(i).setZero();
+        held = true;
+      }
+      if (!held) break;
+    }
+    const double longest = step.template lpNorm<Eigen::Infinity>();
+    if (longest > kLongestStep) step *= kLongestStep / longest;
+    q = (q + step).cwiseMax(lower).cwiseMin(upper);
+  }
+  return false;
+}
+
+void NumericIk::search(const Goal& goal, const Configuration& reference, int starts, int solutions,
+                       std::vector<Configuration>& out) const {
+  int rows[kMaxStarts];
+  const int others = nearest_starts(goal, std::clamp(starts - 1, 1, kMaxStarts), rows);
+  const std::size_t first = out.size();
+  const Configuration& lower = robot_.limits().lower;
+  const Configuration& upper = robot_.limits().upper;
+  for (int k = -1; k < others && out.size() < first + static_cast<std::size_t>(solutions); ++k) {
+    Configuration q = k < 0 ? Configuration(reference.cwiseMax(lower).cwiseMin(upper))
+                            : table_[static_cast<std::size_t>(rows[k])];
+    if (!(goal.any_roll ? converge<5>(goal, q) : converge<6>(goal, q))) continue;
+    for (int i = 0; i < q.size(); ++i) {
+      double near = q[i];
+      if (robot_.arm_joint_type(i) == JointType::kRevolute &&
+          bring_near(near, reference[i], lower[i], upper[i]))
+        q[i] = near;
+    }
+    const bool known = std::any_of(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(),
+                                   [&](const Configuration& other) {
+                                     return (other - q).lpNorm<Eigen::Infinity>() < kDistinct;
+                                   });
+    if (!known) out.push_back(q);
+  }
+}
+
+void NumericIk::solve(const Pose& T_base_camera, const Configuration& reference,
+                      std::vector<Configuration>& out) const {
+  search({T_base_camera, false}, reference, kMaxStarts, kMaxStarts, out);
+}
+
+void NumericIk::solve_view(const Vec3& position, const Vec3& target, const Configuration& reference,
+                           std::vector<Configuration>& out, const ViewIkOptions& options) const {
+  out.clear();
+  search({look_at(position, target), true}, reference, options.numeric_starts,
+         options.numeric_solutions, out);
+}
+
+}  // namespace canopeer

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <vector>
+
+#include "canopeer/robot/robot_model.h"
+#include "canopeer/robot/timing/blended_path.h"
+
+namespace canopeer {
+
+struct PathTimingOptions {
+  double max_deviation = 0.05;  ///< how far the path may pass a waypoint, Euclidean, rad (m)
+  double arc_step_rad = 0.05;   ///< what the path turns by in one interval of constant
+                                ///< acceleration along an arc; lines need no grid
+};
+
+/// The fastest motion along a BlendedPath from standstill to standstill under joint velocity and
+/// acceleration limits, up to the grid that arcs are cut into. Reachability analysis in two passes
+/// (Pham & Pham, "A New Approach to Time-Optimal Path Parameterization Based on Reachability
+/// Analysis", IEEE T-RO 2018) over intervals of constant acceleration along the path. The limits
+/// are imposed on each interval with the ranges that the path's derivatives have in it, not at grid
+/// points: they hold at every instant, whatever rate the motion is sampled at. Straight pieces are
+/// timed in closed form, so a path that is one straight line takes the time of StraightMotion.
+class PathMotion {
+ public:
+  /// At least one waypoint, of the limits' size. Never slower than stopping at every waypoint: the
+  /// path keeps its corners where that is faster on the whole.
+  PathMotion(const std::vector<Configuration>& waypoints, const JointLimits& limits,
+             const PathTimingOptions& options = {});
+  /// The same with a deviation for each waypoint.
+  PathMotion(const JointPath& path, const JointLimits& limits, double arc_step_rad = 0.05);
+
+  [[nodiscard]] double duration_s() const { return times_s_.empty() ? 0.0 : times_s_.back(); }
+  /// Position, velocity and acceleration at a time, held to [0, duration_s()].
+  [[nodiscard]] Configuration at(double t_s) const;
+  [[nodiscard]] Configuration velocity_at(double t_s) const;
+  [[nodiscard]] Configuration acceleration_at(double t_s) const;
+  [[nodiscard]] const BlendedPath& path() const { return path_; }
+
+ private:
+  void time_path(const JointLimits& limits, double arc_step_rad);
+  struct Instant {  // place, speed and acceleration along the path
+    int piece = 0;
+    double s = 0.0;
+    double rate = 0.0;
+    double acceleration = 0.0;
+  };
+  [[nodiscard]] Instant instant(double t_s) const;
+
+  BlendedPath path_;
+  Configuration end_;
+  // Grid points; piece_ and acceleration_ belong to the interval that begins there.
+  std::vector<double> s_;
+  std::vector<double> rate_;
+  std::vector<double> times_s_;
+  std::vector<double> acceleration_;
+  std::vector<int> piece_;
+};
+
+}  // namespace canopeer
