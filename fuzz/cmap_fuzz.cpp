@@ -6,7 +6,7 @@
 #include <string>
 
 #include "canopeer/base/byte_order.h"
-#include "canopeer/map/files/cmap_file.h"
+#include "canopeer/map/cmap_file.h"
 #include "canopeer/map/files/cmap_format.h"
 
 namespace {

@@ -1,21 +1,56 @@
 #!/usr/bin/env bash
-# Installs what packages.txt lists and this machine lacks (Debian 12, Ubuntu). Quick and silent when nothing is missing.
+# Installs what packages.txt lists and this machine lacks (Debian, Ubuntu). Quick and silent when nothing is missing.
+# In packages.txt `a|b` is the first of the two that the release has, and `a?` is installed when the release has it.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 
 mapfile -t wanted < <(sed -e 's/#.*//' -e 's/[[:space:]]//g' -e '/^$/d' "$root/packages.txt")
-installed=$(dpkg-query -W -f '${Package} ${Status}\n' "${wanted[@]}" 2>/dev/null | sed -n 's/ install ok installed$//p' || true)
-missing=()
-for package in "${wanted[@]}"; do
-  grep -qx "$package" <<<"$installed" || missing+=("$package")
+mapfile -t names < <(printf '%s\n' "${wanted[@]}" | tr -d '?' | tr '|' '\n')
+installed=$(dpkg-query -W -f '${Package} ${Status}\n' "${names[@]}" 2>/dev/null | sed -n 's/ install ok installed$//p' || true)
+required=()
+optional=()
+for entry in "${wanted[@]}"; do
+  # An installed one of several is enough.
+  pattern="^(${entry%\?})\$"
+  grep -qE "${pattern//+/\\+}" <<<"$installed" && continue
+  if [[ $entry == *\? ]]; then optional+=("${entry%\?}"); else required+=("$entry"); fi
 done
-[ ${#missing[@]} -eq 0 ] && exit 0
+[ $((${#required[@]} + ${#optional[@]})) -eq 0 ] && exit 0
 
-echo "Installing ${#missing[@]} packages: ${missing[*]}"
 sudo=()
 if [ "$(id -u)" -ne 0 ]; then
-  command -v sudo >/dev/null || { echo "Not root and no sudo: install the packages above, then run again." >&2; exit 1; }
+  if ! command -v sudo >/dev/null; then
+    [ ${#required[@]} -eq 0 ] && exit 0
+    echo "Missing packages: ${required[*]}. Not root and no sudo: install them, then run again." >&2
+    exit 1
+  fi
   sudo=(sudo)
 fi
-"${sudo[@]}" apt-get update -qq
-"${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+
+# Prints the first of a|b|… that the release has; fails when it has none, or when its lists were never fetched.
+available() {
+  local name
+  for name in ${1//|/ }; do
+    [ -z "$(LC_ALL=C apt-cache policy "$name" 2>/dev/null | sed -n '/^  Candidate: [^(]/p')" ] || { echo "$name"; return; }
+  done
+  return 1
+}
+
+# Only what must be there is worth fetching the lists for: a release may lack the rest for good.
+[ ${#required[@]} -eq 0 ] || "${sudo[@]}" apt-get update -qq
+install=()
+for entry in "${required[@]}"; do
+  name=$(available "$entry") || { echo "This release has no package $entry (packages.txt)." >&2; exit 1; }
+  install+=("$name")
+done
+for entry in "${optional[@]}"; do
+  if name=$(available "$entry"); then install+=("$name"); fi
+done
+[ ${#install[@]} -eq 0 ] && exit 0
+echo "Installing ${#install[@]} packages: ${install[*]}"
+get=("${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${install[@]}")
+if [ ${#required[@]} -eq 0 ]; then
+  "${get[@]}" >/dev/null || echo "Could not install them: the tests that need them are left out." >&2
+else
+  "${get[@]}" >/dev/null
+fi

@@ -6,7 +6,7 @@
 #include "canopeer/import/mesh_file.h"
 #include "canopeer/import/meshes/collada_asset.h"
 #include "canopeer/import/scene_glb.h"
-#include "canopeer/import/world_import.h"
+#include "canopeer/import/sdf/sdf_world.h"
 #include "mesh_writers.h"
 #include "world_files.h"
 
@@ -154,25 +154,60 @@ TEST(DamagedFiles, GltfMeshesAreReadOrRefused) {
 }
 
 TEST(DamagedFiles, WorldsAreReadOrRefused) {
-  const test::WorldFiles files;
-  files.add("ball.stl", test::binary_stl(test::ball(Vec3(0, 0, 0), 0.04)));
+  const std::string box =
+      "<visual name=\"v\"><geometry><box><size>1 2 3</size></box></geometry></visual>";
   const std::string good =
-      "<?xml version=\"1.0\"?>\n<sdf version=\"1.6\"><world name=\"w\"><model name=\"m\"><pose>1 2 "
-      "3 0 0 0</pose><link name=\"l\"><visual "
-      "name=\"v\"><geometry><mesh><uri>ball.stl</uri><scale>1"
-      " 1 1</scale></mesh></geometry></visual></link></model><state world_name=\"w\"><model "
-      "name=\"m\"><pose>4 5 6 0 0 0</pose><scale>1 1 2</scale><link name=\"l\"><pose>0 0 0 0 0 0"
-      "</pose></link></model></state></world></sdf>";
-  const std::vector<std::string> words = {
-      "<model name=\"m\">", "</model>",  "<pose>", "</pose>", "nan", "1e400", "\"", "<state>",
-      "version=\"1.9\"",    "<include>", "<uri>x", "&lt;"};
+      "<?xml version=\"1.0\"?>\n<sdf version=\"1.9\"><world name=\"w\"><frame name=\"f\" "
+      "attached_to=\"m::l\"><pose>1 0 0 0 0 0</pose></frame><model name=\"m\"><pose "
+      "relative_to=\"world\">1 2 3 0 0 0</pose><link name=\"l\"><pose "
+      "degrees=\"true\">1 2 3 0 0 90</pose>" +
+      box +
+      "</link><model name=\"n\" placement_frame=\"k\"><link name=\"k\"><pose relative_to=\"j\"/>" +
+      box +
+      "</link><frame name=\"j\"/></model></model><population name=\"p\"><model name=\"q\"><link "
+      "name=\"l\"/></model><box><size>1 1 1</size></box><model_count>3</model_count></population>"
+      "<state world_name=\"w\"><model name=\"m\"><pose>4 5 6 0 0 0</pose><scale>1 1 2</scale><link "
+      "name=\"l\"><pose>0 0 0 0 0 0</pose></link></model><insertions><model "
+      "name=\"i\"/></insertions>"
+      "</state></world></sdf>";
+  const std::vector<std::string> words = {"<model name=\"m\">",
+                                          "</model>",
+                                          "<pose>",
+                                          "</pose>",
+                                          "nan",
+                                          "1e400",
+                                          "\"",
+                                          "<state>",
+                                          "version=\"1.5\"",
+                                          "<include>",
+                                          "<uri>x",
+                                          "&lt;",
+                                          "relative_to=\"f\"",
+                                          "m::n::k",
+                                          "::",
+                                          "__model__",
+                                          "<polyline>",
+                                          "<link name=\"l\">",
+                                          "1e308",
+                                          "\n"};
   Rng rng(4, "damaged world");
-  WorldImportOptions options;
-  options.patterns.fruit = "m";
-  for (int i = 0; i < 250; ++i) {
-    options.file = files.add("w.world", damaged(good, words, rng));
-    expect_value_or_message(import_world(options), i);
+  int read = 0;
+  constexpr int kRounds = 20000;
+  for (int i = 0; i < kRounds; ++i) {
+    const auto world =
+        parse_sdf_world(damaged(good, words, rng), "/nowhere/w.world", ModelPaths({}));
+    expect_value_or_message(world, i);
+    if (!world) {
+      EXPECT_EQ(world.error().message.find_first_of("\r\n"), std::string::npos)
+          << world.error().message;
+      continue;
+    }
+    ++read;
+    for (const SdfVisual& v : world->visuals)
+      ASSERT_TRUE(v.T_world_visual.matrix().allFinite()) << i;
   }
+  EXPECT_GT(read, kRounds / 100);
+  EXPECT_LT(read, kRounds);
 }
 
 }  // namespace

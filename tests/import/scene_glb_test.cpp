@@ -27,6 +27,15 @@ ScenePart part_of(const TriangleMesh& mesh, PartClass kind, int plant, int fruit
   return part;
 }
 
+/// Written as a file and imported by the names that are written.
+Expected<ImportedScene> read_back(const Scene& scene) {
+  const test::WorldFiles files;
+  WorldImportOptions options;
+  options.file = files.path() / "scene.glb";
+  options.patterns = {.fruit = "^fruit", .counted = "_counted", .leaf = "^leaf"};
+  return write_scene_glb(options.file, scene).and_then([&] { return import_world(options); });
+}
+
 TEST(SceneGlb, ReadsBackAsTheSameScene) {
   Scene scene;
   scene.imported = true;
@@ -49,12 +58,7 @@ TEST(SceneGlb, ReadsBackAsTheSameScene) {
   fruit.model = "plant_7";
   scene.fruits.push_back(fruit);
 
-  const test::WorldFiles files;
-  WorldImportOptions options;
-  options.file = files.path() / "scene.glb";
-  options.patterns = {.fruit = "^fruit", .counted = "_counted", .leaf = "^leaf"};
-  ASSERT_TRUE(write_scene_glb(options.file, scene).has_value());
-  const auto back = import_world(options);
+  const auto back = read_back(scene);
   ASSERT_TRUE(back.has_value()) << back.error().message;
   ASSERT_EQ(back->scene.fruits.size(), 1U);
   EXPECT_EQ(back->scene.fruits[0].model, "plant_7");
@@ -86,12 +90,7 @@ TEST(SceneGlb, ReadsBackAsTheSameScene) {
 
 TEST(SceneGlb, AGeneratedRowKeepsItsFruits) {
   const Scene scene = make_world(scenario_1_world(), 1);
-  const test::WorldFiles files;
-  WorldImportOptions options;
-  options.file = files.path() / "row.glb";
-  options.patterns = {.fruit = "^fruit", .counted = "_counted", .leaf = "^leaf"};
-  ASSERT_TRUE(write_scene_glb(options.file, scene).has_value());
-  const auto back = import_world(options);
+  const auto back = read_back(scene);
   ASSERT_TRUE(back.has_value()) << back.error().message;
   EXPECT_EQ(back->scene.fruits.size(), scene.fruits.size());
   EXPECT_EQ(back->scene.counted_fruits(), scene.counted_fruits());
@@ -188,12 +187,7 @@ TEST(SceneGlb, CopiesReadBackAsPlantsOfTheirOwn) {
   row.copies = 3;
   const Scene scene = make_world(row, 2);
   ASSERT_EQ(scene.instances.size(), 6U);
-  const test::WorldFiles files;
-  WorldImportOptions options;
-  options.file = files.path() / "row.glb";
-  options.patterns = {.fruit = "^fruit", .counted = "_counted", .leaf = "^leaf"};
-  ASSERT_TRUE(write_scene_glb(options.file, scene).has_value());
-  const auto back = import_world(options);
+  const auto back = read_back(scene);
   ASSERT_TRUE(back.has_value()) << back.error().message;
   ASSERT_EQ(back->scene.fruits.size(), scene.fruits.size());
   EXPECT_EQ(back->scene.counted_fruits(), scene.counted_fruits());

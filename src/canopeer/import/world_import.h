@@ -29,10 +29,9 @@ struct ImportProgress {
 };
 using ImportProgressCallback = std::function<void(const ImportProgress&)>;
 
-/// Reads a world or a mesh with all it refers to and makes a scene of it, with the connected
-/// components of the fruit surfaces as ground truth. Each mesh and texture file is read once.
-/// Errors name the file, the element and what was expected; what can be done without becomes a
-/// notice.
+/// Reads a world or a mesh with all it refers to, and makes a scene of it. The connected components
+/// of the fruit surfaces are its ground truth. Each mesh and texture file is read once. Errors name
+/// the file, the element and what was expected. What can be done without becomes a notice.
 [[nodiscard]] Expected<ImportedScene> import_world(const WorldImportOptions& options,
                                                    const ImportProgressCallback& progress = {});
 

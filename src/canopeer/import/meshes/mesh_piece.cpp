@@ -40,25 +40,34 @@ VertexKey key_of(const MeshPiece& piece, std::size_t i) {
   return key;
 }
 
-}  // namespace
-
-MeshPiece without_copies(const MeshPiece& piece) {
+/// All of a piece but its surface.
+MeshPiece without_surface(const MeshPiece& piece) {
   MeshPiece result;
   result.texture = piece.texture;
   result.color = piece.color;
   result.see_through = piece.see_through;
   result.names = piece.names;
+  return result;
+}
+
+void copy_vertex(const MeshPiece& from, std::size_t i, MeshPiece& to) {
+  to.mesh.vertices.push_back(from.mesh.vertices[i]);
+  if (!from.mesh.normals.empty()) to.mesh.normals.push_back(from.mesh.normals[i]);
+  if (!from.uv.empty()) to.uv.push_back(from.uv[i]);
+  if (!from.vertex_colors.empty()) to.vertex_colors.push_back(from.vertex_colors[i]);
+}
+
+}  // namespace
+
+MeshPiece without_copies(const MeshPiece& piece) {
+  MeshPiece result = without_surface(piece);
   std::unordered_map<VertexKey, std::uint32_t, VertexKeyHash> known;
   known.reserve(piece.mesh.vertices.size());
   std::vector<std::uint32_t> index;
   for (std::size_t i = 0; i < piece.mesh.vertices.size(); ++i) {
     const auto next = static_cast<std::uint32_t>(result.mesh.vertices.size());
     index.push_back(known.emplace(key_of(piece, i), next).first->second);
-    if (index.back() != next) continue;
-    result.mesh.vertices.push_back(piece.mesh.vertices[i]);
-    if (!piece.mesh.normals.empty()) result.mesh.normals.push_back(piece.mesh.normals[i]);
-    if (!piece.uv.empty()) result.uv.push_back(piece.uv[i]);
-    if (!piece.vertex_colors.empty()) result.vertex_colors.push_back(piece.vertex_colors[i]);
+    if (index.back() == next) copy_vertex(piece, i, result);
   }
   for (const auto& t : piece.mesh.triangles) {
     result.mesh.triangles.push_back({index[t[0]], index[t[1]], index[t[2]]});
@@ -86,11 +95,7 @@ MeshPiece placed(const MeshPiece& piece, const Eigen::Affine3d& T_world_piece) {
 
 MeshPiece selected(const MeshPiece& piece, const std::vector<int>& keep, int value) {
   constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
-  MeshPiece result;
-  result.texture = piece.texture;
-  result.color = piece.color;
-  result.see_through = piece.see_through;
-  result.names = piece.names;
+  MeshPiece result = without_surface(piece);
   std::vector<std::uint32_t> index(piece.mesh.vertices.size(), kUnused);
   for (std::size_t i = 0; i < piece.mesh.triangles.size(); ++i) {
     if (keep[i] != value) continue;
@@ -99,12 +104,7 @@ MeshPiece selected(const MeshPiece& piece, const std::vector<int>& keep, int val
       const std::uint32_t old = corner;
       if (index[old] == kUnused) {
         index[old] = static_cast<std::uint32_t>(result.mesh.vertices.size());
-        result.mesh.vertices.push_back(piece.mesh.vertices[old]);
-        if (!piece.mesh.normals.empty()) result.mesh.normals.push_back(piece.mesh.normals[old]);
-        if (!piece.uv.empty()) result.uv.push_back(piece.uv[old]);
-        if (!piece.vertex_colors.empty()) {
-          result.vertex_colors.push_back(piece.vertex_colors[old]);
-        }
+        copy_vertex(piece, old, result);
       }
       corner = index[old];
     }

@@ -4,21 +4,15 @@
 
 #include "canopeer/base/expected.h"
 #include "canopeer/import/sdf/model_paths.h"
+#include "canopeer/import/sdf/sdf_element.h"
 #include "canopeer/import/sdf/sdf_world.h"
-
-namespace sdf {
-inline namespace v12 {
-class Visual;
-}
-}  // namespace sdf
 
 namespace canopeer {
 
-/// Fills in geometry and material of `visual`. False: a kind of shape that cannot be shown; a
-/// notice has been added. `default_folder`: of the world, when SDF does not know the file. Error: a
-/// mesh that is not there.
-[[nodiscard]] Expected<bool> read_sdf_shape(const sdf::Visual& from, const ModelPaths& paths,
-                                            const std::filesystem::path& default_file,
+/// Fills in geometry and material of `visual` from a <visual>. False: it has no shape, or one of a
+/// kind that cannot be shown; then a notice has been added. Error: file, line, and a mesh that is
+/// not there or what is no number.
+[[nodiscard]] Expected<bool> read_sdf_shape(const SdfElement& from, const ModelPaths& paths,
                                             SdfVisual* visual, std::vector<std::string>* notices);
 
 }  // namespace canopeer

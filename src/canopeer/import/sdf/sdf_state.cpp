@@ -1,38 +1,37 @@
 #include "canopeer/import/sdf/sdf_state.h"
 
-#include <sdf/Element.hh>
-#include <sdf/World.hh>
-
-#include "canopeer/import/sdf/sdf_convert.h"
+#include "canopeer/import/sdf/sdf_numbers.h"
 
 namespace canopeer {
 namespace {
 
-SdfState::Entry read_entry(const sdf::ElementPtr& element) {
+Expected<SdfState::Entry> read_entry(const SdfElement& element) {
   SdfState::Entry entry;
-  if (element->HasElement("pose")) {
-    entry.T_world = to_pose(element->GetElement("pose")->Get<ignition::math::Pose3d>());
+  if (const SdfElement pose = element.child("pose")) {
+    const auto T_world = sdf_pose(pose);
+    if (!T_world) return tl::unexpected(T_world.error());
+    entry.T_world = *T_world;
   }
-  if (element->HasElement("scale")) {
-    entry.scale = to_vec3(element->GetElement("scale")->Get<ignition::math::Vector3d>());
-  }
+  const auto scale = sdf_vector(element, "scale", Vec3::Ones());
+  if (!scale) return tl::unexpected(scale.error());
+  entry.scale = *scale;
   return entry;
 }
 
-template <typename Visit>
-void for_each(const sdf::ElementPtr& parent, const std::string& tag, Visit visit) {
-  if (!parent->HasElement(tag)) return;
-  for (auto e = parent->GetElement(tag); e; e = e->GetNextElement(tag)) visit(e);
-}
-
-void read_model(const sdf::ElementPtr& element, const std::string& scope, SdfState* state) {
-  const std::string name = scope + element->Get<std::string>("name");
-  state->models[name] = read_entry(element);
-  for_each(element, "link", [&](const sdf::ElementPtr& link) {
-    state->links[name + "::" + link->Get<std::string>("name")] = read_entry(link);
-  });
-  for_each(element, "model",
-           [&](const sdf::ElementPtr& nested) { read_model(nested, name + "::", state); });
+Expected<void> read_model(const SdfElement& element, const std::string& scope, SdfState* state) {
+  const std::string name = scope + element.name();
+  auto model = read_entry(element);
+  if (!model) return tl::unexpected(model.error());
+  state->models[name] = std::move(*model);
+  for (const SdfElement& link : element.children("link")) {
+    auto entry = read_entry(link);
+    if (!entry) return tl::unexpected(entry.error());
+    state->links[name + "::" + link.name()] = std::move(*entry);
+  }
+  for (const SdfElement& nested : element.children("model")) {
+    if (auto ok = read_model(nested, name + "::", state); !ok) return ok;
+  }
+  return {};
 }
 
 const SdfState::Entry* find(const std::map<std::string, SdfState::Entry>& entries,
@@ -47,20 +46,16 @@ const SdfState::Entry* SdfState::model(const std::string& name) const { return f
 
 const SdfState::Entry* SdfState::link(const std::string& name) const { return find(links, name); }
 
-SdfState read_sdf_state(const sdf::World& world) {
+Expected<SdfState> read_sdf_state(const SdfElement& world) {
   SdfState state;
-  const sdf::ElementPtr element = world.Element();
-  if (!element || !element->HasElement("state")) return state;
-  const sdf::ElementPtr block = element->GetElement("state");
-  for_each(block, "model", [&](const sdf::ElementPtr& model) { read_model(model, "", &state); });
-  for_each(block, "deletions", [&](const sdf::ElementPtr& deletions) {
-    for_each(deletions, "name",
-             [&](const sdf::ElementPtr& name) { state.deleted.insert(name->Get<std::string>()); });
-  });
-  for_each(block, "insertions", [&](const sdf::ElementPtr& insertions) {
-    for_each(insertions, "model",
-             [&](const sdf::ElementPtr& model) { state.insertions += model->ToString(""); });
-  });
+  const SdfElement block = world.child("state");
+  for (const SdfElement& model : block.children("model")) {
+    if (auto ok = read_model(model, "", &state); !ok) return tl::unexpected(ok.error());
+  }
+  for (const SdfElement& deletions : block.children("deletions")) {
+    for (const SdfElement& name : deletions.children("name")) state.deleted.insert(name.text());
+  }
+  state.insertions = block.children("insertions");
   return state;
 }
 

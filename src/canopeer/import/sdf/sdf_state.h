@@ -5,13 +5,9 @@
 #include <set>
 #include <string>
 
+#include "canopeer/base/expected.h"
 #include "canopeer/geometry/pose.h"
-
-namespace sdf {
-inline namespace v12 {
-class World;
-}
-}  // namespace sdf
+#include "canopeer/import/sdf/sdf_element.h"
 
 namespace canopeer {
 
@@ -25,13 +21,13 @@ struct SdfState {
   std::map<std::string, Entry> models;  ///< by full name, "row::plant_3"
   std::map<std::string, Entry> links;   ///< by full name, "row::plant_3::link"
   std::set<std::string> deleted;        ///< models that were taken out
-  std::string insertions;               ///< the models that were put in, as SDF; empty: none
+  std::vector<SdfElement> insertions;   ///< elements that hold the models that were put in
 
   [[nodiscard]] const Entry* model(const std::string& name) const;
   [[nodiscard]] const Entry* link(const std::string& name) const;
 };
 
-/// Without a <state>: empty.
-[[nodiscard]] SdfState read_sdf_state(const sdf::World& world);
+/// Of a <world> without a <state>: empty. Error: file, line, and what is no pose or scale there.
+[[nodiscard]] Expected<SdfState> read_sdf_state(const SdfElement& world);
 
 }  // namespace canopeer

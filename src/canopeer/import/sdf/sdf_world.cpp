@@ -1,22 +1,11 @@
 #include "canopeer/import/sdf/sdf_world.h"
 
-#include <console_bridge/console.h>
-
 #include <algorithm>
-#include <functional>
-#include <mutex>
-#include <sdf/Console.hh>
-#include <sdf/Link.hh>
-#include <sdf/Model.hh>
-#include <sdf/ParserConfig.hh>
-#include <sdf/Root.hh>
-#include <sdf/Visual.hh>
-#include <sdf/World.hh>
 
-#include "canopeer/import/sdf/sdf_convert.h"
+#include "canopeer/import/sdf/sdf_frames.h"
 #include "canopeer/import/sdf/sdf_shape.h"
 #include "canopeer/import/sdf/sdf_state.h"
-#include "canopeer/import/sdf/sdf_syntax.h"
+#include "canopeer/import/sdf/sdf_tree.h"
 #include "canopeer/import/shape_mesh.h"
 
 namespace canopeer {
@@ -24,302 +13,189 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Models that every Gazebo has and few people keep beside their worlds.
-constexpr const char* kSun = "model://sun";
-constexpr const char* kGround = "model://ground_plane";
-
-/// How the library finds what is included. It asks for relative names without saying who includes
-/// them; as it reads depth first, the model found last is the one that asks.
-class IncludeFinder {
- public:
-  IncludeFinder(const ModelPaths& paths, fs::path world_folder)
-      : paths_(paths), folders_{std::move(world_folder)} {}
-
-  std::string find(const std::string& uri) {
-    for (auto folder = folders_.rbegin(); folder != folders_.rend(); ++folder) {
-      const auto found = paths_.find(uri, *folder);
-      if (!found) continue;
-      const fs::path result = *found;  // `folder` dies with the next line
-      folders_.push_back(fs::is_directory(result) ? result : result.parent_path());
-      return result.string();
-    }
-    return {};
-  }
-
- private:
-  const ModelPaths& paths_;
-  std::vector<fs::path> folders_;
+/// A model where it stands, as <state> or its own pose say.
+struct PlacedModel {
+  std::string name;  ///< full, "row::plant_3"; of the world: empty
+  Pose T_world = Pose::Identity();
+  Vec3 scale = Vec3::Ones();
 };
-
-/// Has the library ask us wherever it does not know better, and keep quiet, as long as this lives.
-/// One at a time.
-class GlobalFinder {
- public:
-  explicit GlobalFinder(std::function<std::string(const std::string&)> find) : lock_(mutex()) {
-    sdf::ParserConfig::GlobalConfig().SetFindCallback(std::move(find));
-    // What is no SDF it tries as URDF, whose parser complains to whoever listens.
-    console_bridge::noOutputHandler();
-  }
-  GlobalFinder(const GlobalFinder&) = delete;
-  GlobalFinder& operator=(const GlobalFinder&) = delete;
-  ~GlobalFinder() {
-    console_bridge::restorePreviousOutputHandler();
-    sdf::ParserConfig::GlobalConfig().SetFindCallback({});
-  }
-
- private:
-  static std::mutex& mutex() {
-    static std::mutex only;
-    return only;
-  }
-  std::lock_guard<std::mutex> lock_;
-};
-
-/// Errors of the library about what has neither shape nor place.
-bool harmless(sdf::ErrorCode code) {
-  switch (code) {
-    case sdf::ErrorCode::MODEL_WITHOUT_LINK:
-    case sdf::ErrorCode::MODEL_CANONICAL_LINK_INVALID:
-    case sdf::ErrorCode::LINK_INERTIA_INVALID:
-    case sdf::ErrorCode::JOINT_CHILD_LINK_INVALID:
-    case sdf::ErrorCode::JOINT_PARENT_LINK_INVALID:
-    case sdf::ErrorCode::JOINT_PARENT_SAME_AS_CHILD:
-    case sdf::ErrorCode::VERSION_DEPRECATED:
-    case sdf::ErrorCode::ELEMENT_DEPRECATED:
-    case sdf::ErrorCode::ATTRIBUTE_DEPRECATED:
-      return true;
-    default:
-      return false;
-  }
-}
-
-bool about(const sdf::Error& error, const char* uri) {
-  return error.Code() == sdf::ErrorCode::URI_LOOKUP &&
-         error.Message().find(std::string("[") + uri + "]") != std::string::npos;
-}
-
-std::string one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
-/// Of an included file that is broken the library says only that it cannot be read.
-std::optional<std::string> syntax_error(const sdf::Error& error) {
-  for (const std::string start :
-       {"Unable to read file:", "Unable to read file: [", "Unable to read file["}) {
-    if (!error.Message().starts_with(start)) continue;
-    const std::string rest = error.Message().substr(start.size());
-    const auto sound = check_sdf_syntax(rest.substr(0, rest.find(']')));
-    if (!sound) return sound.error().message;
-  }
-  return std::nullopt;
-}
-
-std::string described(const sdf::Error& error, const fs::path& world) {
-  if (const auto syntax = syntax_error(error)) return *syntax;
-  std::string text = error.FilePath().value_or(world.string());
-  if (error.LineNumber()) text += ":" + std::to_string(*error.LineNumber());
-  text += ": ";
-  if (error.XmlPath()) text += *error.XmlPath() + ": ";
-  text += one_line(error.Message());
-  if (error.Code() == sdf::ErrorCode::URI_LOOKUP) {
-    text += "; expected a folder with model.config under a --model-path, or beside the file";
-  }
-  if (error.Code() == sdf::ErrorCode::ELEMENT_INVALID &&
-      error.Message().find("<pose>") != std::string::npos) {
-    text += "; expected six numbers: x y z roll pitch yaw";
-  }
-  return text;
-}
 
 class WorldReader {
  public:
-  WorldReader(fs::path path, const ModelPaths& paths) : path_(std::move(path)), paths_(paths) {}
+  WorldReader(const SdfFile& file, const ModelPaths& paths)
+      : file_(file), paths_(paths), includes_(paths) {}
 
   Expected<SdfWorld> read();
 
  private:
-  Expected<void> judge(const sdf::Errors& errors);
-  Expected<void> add_model(const sdf::Model& model, const std::string& scope,
-                           const Pose& T_world_parent, const Vec3& scale);
-  Expected<void> add_link(const sdf::Link& link, const std::string& model,
-                          const Pose& T_world_model, const Vec3& scale);
-  Expected<Pose> resolve(const sdf::SemanticPose& pose, const std::string& what) const;
+  Expected<void> add_tree(const SdfElement& element);
+  Expected<void> add_models(const SdfScope& scope, const PlacedModel& placed);
+  Expected<void> add_model(const SdfScope& model, const PlacedModel& parent);
+  Expected<void> add_merged(const SdfScope& model, const PlacedModel& parent);
+  Expected<void> add_links(const SdfScope& scope, const PlacedModel& placed);
+  Expected<void> add_link(const SdfElement& link, const SdfScope& scope, const PlacedModel& placed);
   void add_ground();
-  Expected<void> check_include(const sdf::Model& model) const;
-  Expected<void> add_insertions(const sdf::ParserConfig& config);
 
-  fs::path path_;
+  const SdfFile& file_;
   const ModelPaths& paths_;
+  SdfIncludes includes_;
+  std::vector<SdfTree> trees_;  ///< the world's own, then those of insertions
+  SdfFrames frames_;
   SdfState state_;
   SdfWorld world_;
 };
-
-/// Fatal errors end the reading; the others become notices.
-Expected<void> WorldReader::judge(const sdf::Errors& errors) {
-  const sdf::Error* fallback = nullptr;
-  bool explained = false;
-  for (const sdf::Error& error : errors) {
-    if (about(error, kSun) || harmless(error.Code())) {
-      explained = true;
-    } else if (about(error, kGround)) {
-      explained = true;
-      add_ground();
-    } else if (error.Message().starts_with("Failed to load a world") ||
-               error.Message().starts_with("Failed to load a model")) {
-      fallback = &error;  // says nothing beside the one before it
-    } else {
-      return fail(described(error, path_));
-    }
-  }
-  if (fallback != nullptr && !explained) return fail(described(*fallback, path_));
-  return {};
-}
 
 void WorldReader::add_ground() {
   SdfVisual ground;
   ground.primitive = plane_mesh(Vec3::UnitZ(), 100.0, 100.0);
   ground.material.color = Rgb{160, 160, 160};
   ground.names.model = "ground_plane";
-  ground.where = path_.string();
+  ground.where = file_.path().string();
   world_.visuals.push_back(std::move(ground));
 }
 
-Expected<Pose> WorldReader::resolve(const sdf::SemanticPose& pose, const std::string& what) const {
-  ignition::math::Pose3d resolved;
-  const sdf::Errors errors = pose.Resolve(resolved);
-  if (!errors.empty()) {
-    return fail(path_.string() + ": " + what +
-                ": its pose cannot be resolved: " + one_line(errors.front().Message()));
-  }
-  if (!resolved.IsFinite()) return fail(path_.string() + ": " + what + ": its pose is not finite");
-  return to_pose(resolved);
-}
-
-Expected<void> WorldReader::add_link(const sdf::Link& link, const std::string& model,
-                                     const Pose& T_world_model, const Vec3& scale) {
-  const std::string name = model + "::" + link.Name();
-  auto T_model_link = resolve(link.SemanticPose(), "link '" + name + "'");
+Expected<void> WorldReader::add_link(const SdfElement& link, const SdfScope& scope,
+                                     const PlacedModel& placed) {
+  const auto T_model_link = frames_.frame(scope, link.name());
   if (!T_model_link) return tl::unexpected(T_model_link.error());
-  Pose T_world_link = T_world_model * *T_model_link;
+  const std::string name = placed.name + "::" + link.name();
+  Pose T_world_link = placed.T_world * *T_model_link;
   const SdfState::Entry* const state = state_.link(name);
   if (state != nullptr && state->T_world) T_world_link = *state->T_world;
-  for (std::uint64_t i = 0; i < link.VisualCount(); ++i) {
-    const sdf::Visual& from = *link.VisualByIndex(i);
-    auto T_link_visual = resolve(from.SemanticPose(), "visual '" + name + "::" + from.Name() + "'");
+  // Until SDF 1.7 the links of a model within were written as links of the outer one,
+  // "inner::link".
+  const std::size_t last = name.rfind("::");
+  for (const SdfElement& from : link.children("visual")) {
+    const SdfPlace place{from.child("pose"), "", from, Vec3::Zero()};
+    const auto T_link_visual = frames_.in_link(scope, link.name(), place);
     if (!T_link_visual) return tl::unexpected(T_link_visual.error());
     SdfVisual visual;
-    visual.T_world_visual =
-        Eigen::Affine3d(T_world_link) * Eigen::Scaling(scale) * Eigen::Affine3d(*T_link_visual);
-    visual.names.visual = from.Name();
-    visual.names.link = link.Name();
-    visual.names.model = model;
-    auto shown = read_sdf_shape(from, paths_, path_, &visual, &world_.notices);
+    visual.T_world_visual = Eigen::Affine3d(T_world_link) * Eigen::Scaling(placed.scale) *
+                            Eigen::Affine3d(*T_link_visual);
+    if (!visual.T_world_visual.matrix().allFinite()) {
+      return fail(from.where() + ": visual '" + name + "::" + from.name() +
+                  "': its pose is not finite");
+    }
+    visual.names.visual = from.name();
+    visual.names.link = name.substr(last + 2);
+    visual.names.model = name.substr(0, last);
+    const auto shown = read_sdf_shape(from, paths_, &visual, &world_.notices);
     if (!shown) return tl::unexpected(shown.error());
     if (*shown) world_.visuals.push_back(std::move(visual));
   }
   return {};
 }
 
-/// The library looks for relative includes in the working directory before it asks us. What it
-/// finds there must not come in place of what lies beside the file.
-Expected<void> WorldReader::check_include(const sdf::Model& model) const {
-  const sdf::ElementPtr include = model.Element() ? model.Element()->GetIncludeElement() : nullptr;
-  if (!include || !include->HasElement("uri")) return {};
-  const auto uri = include->GetElement("uri")->Get<std::string>();
-  if (uri.find("://") != std::string::npos || fs::path(uri).is_absolute()) return {};
-  const fs::path from = include->FilePath().empty() ? path_ : fs::path(include->FilePath());
-  fs::path beside = from.parent_path() / uri;
-  fs::path read = fs::path(model.Element()->FilePath()).parent_path();
-  std::error_code code;
-  if (!fs::exists(beside, code)) return {};
-  if (!fs::is_directory(beside, code)) beside = beside.parent_path();
-  if (read.empty()) read = ".";
-  if (beside.empty() || fs::equivalent(beside, read, code) || code) return {};
-  return fail(from.string() + ": <include><uri>" + uri + ": the working directory has a " +
-              read.string() + " that hides " + beside.string() + "; run from another directory");
-}
-
-Expected<void> WorldReader::add_model(const sdf::Model& model, const std::string& scope,
-                                      const Pose& T_world_parent, const Vec3& scale) {
-  const std::string name = scope + model.Name();
-  if (state_.deleted.count(name) != 0) return {};
-  if (auto ok = check_include(model); !ok) return ok;
-  auto T_parent_model = resolve(model.SemanticPose(), "model '" + name + "'");
+/// Where a merged model stands; its parts count as its parent's. The world has no links: there they
+/// keep the model's name.
+Expected<void> WorldReader::add_merged(const SdfScope& model, const PlacedModel& parent) {
+  const auto T_parent_model = frames_.model(model);
   if (!T_parent_model) return tl::unexpected(T_parent_model.error());
-  Pose T_world_model = T_world_parent * *T_parent_model;
-  Vec3 own_scale = scale;
-  if (const SdfState::Entry* const state = state_.model(name)) {
-    if (state->T_world) T_world_model = *state->T_world;
-    own_scale = state->scale;
-  }
-  for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
-    auto ok = add_link(*model.LinkByIndex(i), name, T_world_model, own_scale);
-    if (!ok) return ok;
-  }
-  for (std::uint64_t i = 0; i < model.ModelCount(); ++i) {
-    auto ok = add_model(*model.ModelByIndex(i), name + "::", T_world_model, own_scale);
+  PlacedModel placed = parent;
+  placed.T_world = parent.T_world * *T_parent_model;
+  if (placed.name.empty()) placed.name = model.name;
+  return add_links(model, placed);
+}
+
+Expected<void> WorldReader::add_links(const SdfScope& scope, const PlacedModel& placed) {
+  for (const SdfPart& part : scope.parts) {
+    Expected<void> ok;
+    if (!part.model) ok = add_link(part.link, scope, placed);
+    if (part.model && part.model->merged) ok = add_merged(*part.model, placed);
     if (!ok) return ok;
   }
   return {};
 }
 
-/// Models that were put into a running world stand in its <state>, whole. Frames are resolved in
-/// worlds only, so they get one of their own; the library has brought them to its own version.
-Expected<void> WorldReader::add_insertions(const sdf::ParserConfig& config) {
-  if (state_.insertions.empty()) return {};
-  sdf::Root root;
-  const sdf::Errors errors =
-      root.LoadSdfString("<sdf version='" + std::string(SDF_VERSION) +
-                             "'><world name='insertions'>" + state_.insertions + "</world></sdf>",
-                         config);
-  if (auto ok = judge(errors); !ok) return fail_in("<state><insertions>", ok.error());
-  if (root.WorldCount() == 0) return {};
-  const sdf::World& world = *root.WorldByIndex(0);
-  for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
-    auto ok = add_model(*world.ModelByIndex(i), "", Pose::Identity(), Vec3::Ones());
-    if (!ok) return ok;
+Expected<void> WorldReader::add_models(const SdfScope& scope, const PlacedModel& placed) {
+  for (const SdfPart& part : scope.parts) {
+    if (!part.model) continue;
+    if (auto ok = add_model(*part.model, placed); !ok) return ok;
   }
   return {};
+}
+
+Expected<void> WorldReader::add_model(const SdfScope& model, const PlacedModel& parent) {
+  const auto T_parent_model = frames_.model(model);
+  if (!T_parent_model) return tl::unexpected(T_parent_model.error());
+  PlacedModel placed = parent;
+  placed.T_world = parent.T_world * *T_parent_model;
+  if (model.merged) return add_models(model, placed);
+  placed.name += (parent.name.empty() ? "" : "::") + model.name;
+  if (state_.deleted.count(placed.name) != 0) return {};
+  if (const SdfState::Entry* const state = state_.model(placed.name)) {
+    if (state->T_world) placed.T_world = *state->T_world;
+    placed.scale = state->scale;
+  }
+  if (auto ok = add_links(model, placed); !ok) return ok;
+  return add_models(model, placed);
+}
+
+Expected<void> WorldReader::add_tree(const SdfElement& element) {
+  auto read = read_sdf_tree(element, includes_);
+  if (!read) return tl::unexpected(read.error());
+  const SdfTree& tree = trees_.emplace_back(std::move(*read));
+  world_.notices.insert(world_.notices.end(), tree.notices.begin(), tree.notices.end());
+  if (tree.lacks_ground) add_ground();
+  const PlacedModel world;
+  for (const SdfPart& part : tree.world->parts) {
+    if (!part.model || !part.model->merged) continue;
+    if (auto ok = add_merged(*part.model, world); !ok) return ok;
+  }
+  return add_models(*tree.world, world);
 }
 
 Expected<SdfWorld> WorldReader::read() {
-  sdf::Console::Instance()->SetQuiet(true);
-  IncludeFinder finder(paths_, path_.parent_path());
-  sdf::ParserConfig config;
-  config.SetWarningsPolicy(sdf::EnforcementPolicy::LOG);
-  config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::LOG);
-  // The library asks for the world file itself, too. And it forgets our settings when an included
-  // model includes another: then it asks by the settings of the process.
-  const auto find = [&](const std::string& uri) {
-    return uri == path_.string() ? uri : finder.find(uri);
-  };
-  config.SetFindCallback(find);
-  const GlobalFinder global(find);
-  sdf::Root root;
-  const sdf::Errors errors = root.Load(path_.string(), config);
-  if (auto ok = judge(errors); !ok) return tl::unexpected(ok.error());
-  world_.name = path_.stem().string();
-  if (root.WorldCount() == 0 && root.Model() == nullptr) {
-    return fail(path_.string() + ": expected a <world> or a <model> in <sdf>");
+  const SdfElement root = file_.root();
+  if (file_.is_urdf()) {
+    return fail(root.where() +
+                ": expected <sdf version=…> at the root, found <robot>: the robot "
+                "comes from the mission, by its robot.yaml");
   }
-  if (root.WorldCount() == 0) {
-    auto ok = add_model(*root.Model(), "", Pose::Identity(), Vec3::Ones());
-    if (!ok) return tl::unexpected(ok.error());
-    return std::move(world_);
+  const SdfElement world = root.child("world");
+  if (!world && !root.child("model") && !root.child("include")) {
+    return fail(file_.path().string() + ": expected a <world> or a <model> in <sdf>");
   }
-  const sdf::World& world = *root.WorldByIndex(0);
-  if (!world.Name().empty()) world_.name = world.Name();
-  state_ = read_sdf_state(world);
-  for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
-    auto ok = add_model(*world.ModelByIndex(i), "", Pose::Identity(), Vec3::Ones());
-    if (!ok) return tl::unexpected(ok.error());
+  if (file_.version() > kNewestSdf) {
+    world_.notices.push_back(root.where() + ": SDF " + root.attribute("version").value_or("") +
+                             " is newer than what is known; read as " +
+                             std::to_string(kNewestSdf.major) + "." +
+                             std::to_string(kNewestSdf.minor));
   }
-  if (auto ok = add_insertions(config); !ok) return tl::unexpected(ok.error());
+  world_.name = world.name().empty() ? file_.path().stem().string() : world.name();
+  auto state = read_sdf_state(world);
+  if (!state) return tl::unexpected(state.error());
+  state_ = std::move(*state);
+  if (auto ok = add_tree(world ? world : root); !ok) return tl::unexpected(ok.error());
+  // Models that were put into a running world stand in its <state>, whole, in a frame of their own.
+  for (const SdfElement& insertions : state_.insertions) {
+    if (auto ok = add_tree(insertions); !ok) return tl::unexpected(ok.error());
+  }
   return std::move(world_);
 }
 
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return text;
+}
+
+/// Names and texts of a file may hold ends of lines; messages do not.
+Expected<SdfWorld> read_world(const Expected<std::unique_ptr<const SdfFile>>& file,
+                              const ModelPaths& paths) {
+  if (!file) return tl::unexpected(file.error());
+  auto world = WorldReader(**file, paths).read();
+  if (!world) return fail(one_line(world.error().message));
+  for (std::string& notice : world->notices) notice = one_line(notice);
+  return world;
+}
+
 }  // namespace
+
+Expected<SdfWorld> parse_sdf_world(std::string_view text, const fs::path& path,
+                                   const ModelPaths& paths) {
+  return read_world(SdfFile::parse(text, path), paths);
+}
 
 Expected<SdfWorld> read_sdf_world(const fs::path& path, const ModelPaths& paths) {
   std::error_code code;
@@ -327,12 +203,7 @@ Expected<SdfWorld> read_sdf_world(const fs::path& path, const ModelPaths& paths)
     return fail(path.string() + ": is a folder; expected a .world or .sdf file, or a mesh");
   }
   if (!fs::is_regular_file(path, code)) return fail(path.string() + ": no such file");
-  if (auto ok = check_sdf_syntax(path); !ok) return tl::unexpected(ok.error());
-  try {
-    return WorldReader(path, paths).read();
-  } catch (const std::exception& error) {
-    return fail(path.string() + ": cannot be read as SDF: " + one_line(error.what()));
-  }
+  return read_world(SdfFile::read(path), paths);
 }
 
 }  // namespace canopeer

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "canopeer/base/expected.h"
@@ -37,11 +38,16 @@ struct SdfWorld {
   std::vector<std::string> notices;
 };
 
-/// Reads an SDF 1.5 … 1.9 world, or a lone model, with all it includes. Poses, frames and nested
+/// Reads an SDF 1.4 … 1.12 world, or a lone model, with all it includes. Poses, frames and nested
 /// models resolve as SDF says; the poses and scales of a <state> block come before those of the
 /// models, as in Gazebo. `model://sun` and `model://ground_plane` need not be there. Error: which
 /// file, which line and element, what was expected.
 [[nodiscard]] Expected<SdfWorld> read_sdf_world(const std::filesystem::path& path,
                                                 const ModelPaths& paths);
+
+/// The same of the text of a file at `path`.
+[[nodiscard]] Expected<SdfWorld> parse_sdf_world(std::string_view text,
+                                                 const std::filesystem::path& path,
+                                                 const ModelPaths& paths);
 
 }  // namespace canopeer
