@@ -196,6 +196,7 @@ TEST(FruitMap, KnowsNothingBeforeItSeesAnythingAndKeepsItsColours) {
   EXPECT_TRUE(map.cloud().points.empty());
   const View view = look({pepper(kFruit)}, kFront, kFruit);
   map.add(view.frame, view.fruit);
+  EXPECT_TRUE(map.cloud().points.empty());  // there is no surface before an update
   map.update();
   const PointCloud cloud = map.cloud();
   ASSERT_GT(cloud.points.size(), 100U);

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "canopeer/fruit/confidence/row_place.h"
+#include "canopeer/fruit/row_place.h"
 #include "canopeer/geometry/superellipsoid.h"
 #include "canopeer/sensing/rgbd_frame.h"
 
@@ -54,6 +54,13 @@ struct FruitEstimate {
     b.T_world_body.translation() = centre;
     b.T_world_body.linear() = rotation_of(roll_pitch_yaw_rad);
     return b;
+  }
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(id, centre, semi_axes_m, e1, e2, roll_pitch_yaw_rad, volume_cm3, points, confidence);
+    archive(centre_sd_m, volume_sd_cm3, rms_m, seen_share, ripeness, color, views);
+    archive(first_seen_s, last_seen_s, place);
   }
 };
 

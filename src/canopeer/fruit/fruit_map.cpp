@@ -15,6 +15,8 @@ FruitMap::FruitMap(const FruitMapOptions& options) : state_(std::make_unique<Sta
   CANOPEER_CHECK(options.validate().has_value(), "validate options where they come from");
 }
 FruitMap::~FruitMap() = default;
+FruitMap::FruitMap(const FruitMap& other) : state_(std::make_unique<State>(*other.state_)) {}
+FruitMap& FruitMap::operator=(const FruitMap& other) { return *this = FruitMap(other); }
 FruitMap::FruitMap(FruitMap&&) noexcept = default;
 FruitMap& FruitMap::operator=(FruitMap&&) noexcept = default;
 
@@ -75,6 +77,7 @@ void FruitMap::State::update(const std::vector<int>& new_changes, bool all) {
             [](const KnownFruit& a, const KnownFruit& b) { return a.estimate.id < b.estimate.id; });
   s.known = std::move(after);
   s.count_views();
+  s.judge();
   s.hand_out();
 }
 
@@ -101,13 +104,18 @@ void FruitMap::State::count_views() {
   std::erase_if(sights, [&](const Sight& sight) { return sight.update < oldest; });
 }
 
+void FruitMap::State::judge() {
+  const double cell_cm = 100.0 * options.tsdf.voxel_m;
+  for (KnownFruit& fruit : known) {
+    fruit.evidence = evidence_of(fruit.estimate, options, cell_cm * cell_cm, fruit.seen);
+    fruit.estimate.confidence = options.confidence(fruit.evidence);
+  }
+}
+
 void FruitMap::State::hand_out() {
   fruits.clear();
   candidates.clear();
-  for (KnownFruit& fruit : known) {
-    const double cell_cm = 100.0 * options.tsdf.voxel_m;
-    fruit.evidence = evidence_of(fruit.estimate, options, cell_cm * cell_cm, fruit.seen);
-    fruit.estimate.confidence = options.confidence(fruit.evidence);
+  for (const KnownFruit& fruit : known) {
     candidates.push_back(fruit.estimate);
     if (fruit.estimate.confidence >= options.min_confidence) fruits.push_back(fruit.estimate);
   }

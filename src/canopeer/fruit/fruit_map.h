@@ -1,8 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <string_view>
 #include <vector>
 
+#include "canopeer/base/expected.h"
 #include "canopeer/fruit/fruit_estimate.h"
 #include "canopeer/fruit/fruit_map_options.h"
 #include "canopeer/fruit/instances/fruit_tracker.h"
@@ -14,13 +17,15 @@
 namespace canopeer {
 
 /// The fruits found so far. Frames go in one by one; update() makes fruits of what has been seen.
-/// One map for the whole mission, in the world: what is seen from both sides of a row, or in
-/// several segments, comes together on the same surface. Deterministic; one owner (not
-/// thread-safe).
+/// There is one map for the whole mission, in the world: what is seen from both sides of a row, or
+/// in several segments, comes together on the same surface. A value: a copy goes on by itself, as
+/// the original would. Deterministic; one owner (not thread-safe).
 class FruitMap {
  public:
   explicit FruitMap(const FruitMapOptions& options = {});
   ~FruitMap();
+  FruitMap(const FruitMap& other);
+  FruitMap& operator=(const FruitMap& other);
   FruitMap(FruitMap&&) noexcept;
   FruitMap& operator=(FruitMap&&) noexcept;
 
@@ -52,6 +57,18 @@ class FruitMap {
   [[nodiscard]] PointCloud cloud() const;
   /// The same as triangles, each vertex with the id of its fruit.
   [[nodiscard]] SurfaceMesh surface() const;
+
+  /// All that later calls depend on, at any moment between them, as bytes: the surface in its
+  /// blocks of voxels, which of it waits, the fruits with their shapes, ids and lost ids, sights
+  /// that still count. A map restored from it gives, to the last bit, what this one would. Without
+  /// the options and without a checksum. Some 9 kB for each block of 8³ voxels near fruit (26 MB
+  /// after a mission with 47 fruits, written in 40 ms), half of that compressed.
+  [[nodiscard]] std::string state() const;
+  /// Takes the place of all this map knows. Its options must be those that the state was made with;
+  /// an error when those of the signed distances (`tsdf`) are not, others hold from here on. Also
+  /// an error when the bytes are cut short, too long or make no sense; then the map is as it was.
+  /// Any bytes may come, but numbers that are just other numbers are taken for what they are.
+  [[nodiscard]] Expected<void> restore(std::string_view state);
 
  private:
   struct State;

@@ -4,7 +4,7 @@
 
 #include "canopeer/base/expected.h"
 #include "canopeer/fruit/confidence/confidence.h"
-#include "canopeer/fruit/confidence/row_place.h"
+#include "canopeer/fruit/row_place.h"
 #include "canopeer/fruit/shapes/superellipsoid_fit.h"
 #include "canopeer/fruit/surface/fruit_tsdf.h"
 
@@ -36,9 +36,9 @@ struct FruitMapOptions {
   int fit_points = 160;   ///< of a fruit's surface, evenly, for its shape
   int refit_points = 96;  ///< the same for shapes that are known already, until the run ends
   ConfidenceModel confidence;
-  /// In one update so much known surface is drawn anew (blocks) and looked at again (points; one
-  /// patch at least), so that a frame on which much has changed holds nobody up; what is left waits
-  /// for the next. New surface and new fruits never wait. 3 000 points are about ten fruits.
+  /// How much known surface one update draws anew (blocks) and looks at again (points; one patch at
+  /// least). A frame on which much has changed then holds nobody up: what is left waits for the
+  /// next. New surface and new fruits never wait. 3 000 points are about ten fruits.
   int update_blocks = kNoBound;
   int update_points = 3000;
   static constexpr int kNoBound = 100000000;

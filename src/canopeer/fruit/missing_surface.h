@@ -7,8 +7,8 @@
 
 namespace canopeer {
 
-/// What of a fitted body nobody has seen: of even samples of its surface those farther than
-/// `reach_m` from every point (Marangoz et al., CASE 2022).
+/// What of a fitted body nobody has seen: those of even samples of its surface that are farther
+/// than `reach_m` from every point (Marangoz et al., CASE 2022).
 struct MissingSurface {
   std::vector<SurfacePoint> points;  ///< world
   int samples = 0;

@@ -10,11 +10,16 @@ namespace canopeer {
 struct SurfacePoint {
   Vec3 point = Vec3::Zero();
   Vec3 normal = Vec3::UnitZ();
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(point, normal);
+  }
 };
 
-/// A superellipsoid in the world (Barr 1981; Solina & Bajcsy 1990): the body frame's points with
-/// F = (|x/a|^(2/e2) + |y/b|^(2/e2))^(e2/e1) + |z/c|^(2/e1) ≤ 1. e1 = e2 = 1 is an ellipsoid,
-/// smaller exponents are blockier. Semi-axes positive, exponents in (0, 2).
+/// A superellipsoid in the world (Barr 1981; Solina & Bajcsy 1990). In the body frame it holds the
+/// points with F = (|x/a|^(2/e2) + |y/b|^(2/e2))^(e2/e1) + |z/c|^(2/e1) ≤ 1. e1 = e2 = 1 is an
+/// ellipsoid; smaller exponents are blockier. Semi-axes positive, exponents in (0, 2).
 struct Superellipsoid {
   Vec3 semi_axes_m = Vec3::Constant(0.03);  ///< a, b, c
   double e1 = 1.0;                          ///< along the axis
@@ -40,6 +45,11 @@ struct Superellipsoid {
   /// Points of the surface with normals, world, in the directions of a Fibonacci lattice on the
   /// sphere stretched to the semi-axes; `count` of them.
   [[nodiscard]] std::vector<SurfacePoint> surface_samples(int count) const;
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(semi_axes_m, e1, e2, T_world_body);
+  }
 };
 
 /// Evenly spread directions: the Fibonacci lattice on the unit sphere.

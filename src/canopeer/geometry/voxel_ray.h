@@ -44,8 +44,8 @@ struct VoxelWalk {
       const auto time = [](double t) { return static_cast<std::int64_t>(t * kEnd); };
       t_next[axis] = time(std::clamp((face - from[axis]) / d, 0.0, 1.0));
       t_delta[axis] = crossings == 1 ? kEnd + 1 : time(resolution_m / std::abs(d));
-      // Whatever rounding says, the last crossing is not after the end and one more would be: the
-      // walk makes `steps` steps and ends in the end's voxel.
+      // Whatever rounding says, the last crossing is not after the end, and one more would be. So
+      // the walk makes `steps` steps and ends in the end's voxel.
       const std::int64_t late = t_next[axis] + (crossings - 1) * t_delta[axis] - kEnd;
       if (late > 0) t_next[axis] = std::max<std::int64_t>(0, t_next[axis] - late);
       const std::int64_t early = kEnd + 1 - (t_next[axis] + crossings * t_delta[axis]);

@@ -16,12 +16,18 @@ struct FruitEvidence {
   // What does not count by itself (decision 0086), for whoever fits another model.
   double fruit_share = 0.0;  ///< of the pixels on it those taken for fruit
   int views = 0;             ///< frames it was seen in
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(area_cm2, seen_share, rms_m, size_sds, normal_spread, foreign_share, free_share,
+            fruit_share, views);
+  }
 };
 
-/// Logistic regression on the evidence: log-odds that add up. More area, more of the shape and more
-/// curvature speak for a fruit, never against; misfit, an odd size, surface that goes on as
-/// something else and shape where there is nothing against, never for. The weights were fitted on
-/// simulated runs; how, and how well they hold on others, is in docs/decisions/0086.
+/// Logistic regression on the evidence: log-odds that add up. For a fruit, never against it: more
+/// area, more of the shape, more curvature. Against a fruit, never for it: misfit, an odd size,
+/// surface that goes on as something else, shape where there is nothing. The weights were fitted on
+/// simulated runs. docs/decisions/0086 says how, and how well they hold on others.
 struct ConfidenceModel {
   static constexpr int kFeatures = 8;
   using Features = Eigen::Matrix<double, kFeatures, 1>;

@@ -20,6 +20,11 @@ struct SurfaceEvidence {
   double normal_spread = 0.0;
   double foreign_share = 0.0;
   double free_share = 0.0;
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(fruit_share, normal_spread, foreign_share, free_share);
+  }
 };
 
 /// What a fitted fruit says for being one. `cell_cm2`: area that one of its points stands for.

@@ -14,10 +14,10 @@ struct SeparatedFruit {
   std::vector<int> points;
 };
 
-/// Groups surface points into single fruits: fragments of one fruit are put together, touching
+/// Groups surface points into single fruits. Fragments of one fruit are put together, touching
 /// fruits are told apart, and what is no fruit by size or shape is left out. Every point votes for
-/// the centre behind it; each peak of the votes starts a fruit, points go to the fruit they fit
-/// best, shapes are fitted again. Deterministic for the same points in the same order.
+/// the centre behind it. Each peak of the votes starts a fruit, points go to the fruit they fit
+/// best, and shapes are fitted again. Deterministic for the same points in the same order.
 [[nodiscard]] std::vector<SeparatedFruit> separate_fruits(std::span<const SurfacePoint> surface,
                                                           const FruitMapOptions& options);
 

@@ -7,9 +7,9 @@
 
 namespace canopeer {
 
-/// Points in chunks, as many as their intermediate values fit the cache; the last one is filled up
-/// with zeros. Within a chunk they lie so that sums over rows of four add them up as a sum by
-/// halves would: point i of a chunk is at place_in_chunk(i).
+/// Points in chunks. A chunk has as many as their intermediate values fit the cache; the last one
+/// is filled up with zeros. Point i of a chunk lies at place_in_chunk(i): so sums over rows of four
+/// add the points up as a sum by halves would.
 class ChunkedPoints {
  public:
   static constexpr int kChunk = 32;
@@ -31,8 +31,8 @@ class ChunkedPoints {
   int points_ = 0;
 };
 
-/// Of a chunk's points the derivatives of their residuals by the parameters, the residuals, and the
-/// radial distances, m; those that fill a chunk up are zero.
+/// Of a chunk's points: the derivatives of their residuals by the parameters, the residuals, and
+/// the radial distances, m. Those of points that fill a chunk up are zero.
 struct alignas(32) RadialRows {
   static constexpr int kResidual = kFitParameters;
   static constexpr int kDistance = kFitParameters + 1;
@@ -48,9 +48,9 @@ struct RadialModel {
   double surface_sd_m = 1.0;
 };
 
-/// The radial distance d = m (1 − 1/G), m the distance from the centre, G = F^(e1/2) the gauge, and
-/// its derivatives by the chain rule through log G: each of them is a share of the terms of F. The
-/// Cauchy loss as a residual: ½ r² = ½ c² log(1 + (d/sd)²/c²) (Triggs et al. 2000). `level`:
+/// The radial distance is d = m (1 − 1/G): m is the distance from the centre, G = F^(e1/2) the
+/// gauge. Its derivatives follow by the chain rule through log G: each is a share of the terms of
+/// F. The Cauchy loss as a residual: ½ r² = ½ c² log(1 + (d/sd)²/c²) (Triggs et al. 2000). `level`
 /// changes the speed only.
 void radial_rows(const ChunkedPoints::Chunk& chunk, const RadialModel& model, RadialRows& rows,
                  SimdLevel level);

@@ -22,8 +22,8 @@ struct ShapeEstimate {
   [[nodiscard]] double volume_cm3() const;
 };
 
-/// Where an upright spheroid with these semi-axes and normal n at p has its centre: an ellipsoid
-/// with D = diag(a², a², c²) has normal n at D n / √(nᵀ D n).
+/// Where an upright spheroid with these semi-axes and normal n at p has its centre. An ellipsoid
+/// with D = diag(a², a², c²) has normal n at D n / √(nᵀ D n) from its centre.
 [[nodiscard]] Vec3 centre_vote(const SurfacePoint& surface, double radius_m, double half_length_m);
 
 /// Maximum a posteriori spheroid of one fruit's surface points: robust radial distances, the prior

@@ -4,8 +4,8 @@
 
 namespace canopeer {
 
-/// What is known of a fruit before it is seen: sweet peppers by default (length 74 ± 11 mm, mean of
-/// the two diameters 64 ± 10 mm, tilted by 8° ± 5°), and how well a smooth body describes one. All
+/// What is known of a fruit before it is seen, and how well a smooth body describes one. By default
+/// sweet peppers: length 74 ± 11 mm, mean of the two diameters 64 ± 10 mm, tilted by 8° ± 5°. All
 /// positive.
 struct ShapePrior {
   double radius_m = 0.032;  ///< across the axis

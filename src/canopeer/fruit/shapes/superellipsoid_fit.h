@@ -28,15 +28,20 @@ struct SuperellipsoidFit {
   Eigen::Matrix<double, kFitParameters, kFitParameters> covariance;
   int starts = 0;
   bool converged = false;
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(body, rms_m, cost, centre_sd_m, volume_sd_cm3, covariance, starts, converged);
+  }
 };
 
-/// Where the normals say the centre is: the mean of p − D n / √(nᵀ D n), the centre of an upright
-/// ellipsoid of the prior's size with that normal at that point.
+/// Where the normals say the centre is: the mean of p − D n / √(nᵀ D n). Each is the centre of an
+/// upright ellipsoid of the prior's size with that normal at that point.
 [[nodiscard]] Vec3 centre_by_normals(std::span<const SurfacePoint> surface,
                                      const ShapePrior& prior);
 
-/// The point nearest to all normals' lines in the least-squares sense, drawn towards the points'
-/// mean by `weight` per 100 points (Marangoz et al., CASE 2022).
+/// The point nearest to all normals' lines in the least-squares sense. It is drawn towards the
+/// points' mean by `weight` per 100 points (Marangoz et al., CASE 2022).
 [[nodiscard]] Vec3 normals_intersection(std::span<const SurfacePoint> surface, double weight);
 
 /// Maximum a posteriori superellipsoid of one fruit's surface points: radial Euclidean distance

@@ -17,10 +17,9 @@ class FrameDepths {
   void set(const DepthImage& depth, float max_range_m, float max_step_m,
            SimdLevel level = best_simd_level());
 
-  /// Rows of the image, each with a pixel more before and behind, and one row more above and below,
-  /// so that voxels just outside of the image need no question of their own. 0: no depth; negative:
-  /// the pixel is at an edge or too far away to show a surface, it only tells what is free before
-  /// it.
+  /// Rows of the image, with one pixel more before and behind, and one row more above and below. So
+  /// voxels just outside of the image need no question of their own. 0: no depth. Negative: the
+  /// pixel is at an edge, or too far away to show a surface; it only tells what is free before it.
   [[nodiscard]] const float* marked() const { return marked_.data(); }
   [[nodiscard]] std::ptrdiff_t stride() const { return width_ + 2; }
 

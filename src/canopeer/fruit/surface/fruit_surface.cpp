@@ -28,7 +28,7 @@ class CellCorners {
   CellCorners(const FruitTsdf& tsdf, const FruitTsdf::Block& block) {
     for (int k = 0; k < 8; ++k) {
       const int number = block.around[13 + (k & 1) + 3 * ((k >> 1) & 1) + 9 * (k >> 2)];
-      if (number >= 0) around_[k] = tsdf.blocks()[static_cast<std::size_t>(number)].get();
+      if (number >= 0) around_[k] = &tsdf.blocks()[static_cast<std::size_t>(number)];
     }
     for (int z = 0; z < kCorners; ++z) {
       for (int y = 0; y < kCorners; ++y) set_row(y, z);
@@ -182,7 +182,6 @@ void FruitSurface::extract(const FruitTsdf::Block& block,
 }
 
 std::vector<int> FruitSurface::update(int max_blocks) {
-  vertices_.resize(tsdf_.blocks().size());
   std::vector<char> waits(vertices_.size(), 0);
   for (const int number : waiting_) waits[static_cast<std::size_t>(number)] = 1;
   for (const int number : tsdf_.take_changed()) {
@@ -199,9 +198,25 @@ std::vector<int> FruitSurface::update(int max_blocks) {
   std::sort(remade.begin(), remade.end());
   for (const int number : remade) {
     const auto n = static_cast<std::size_t>(number);
-    extract(*tsdf_.blocks()[n], vertices_[n]);
+    extract(tsdf_.blocks()[n], vertices_[n]);
   }
   return remade;
+}
+
+bool FruitSurface::relink() {
+  if (!tsdf_.relink() || vertices_.size() != tsdf_.blocks().size()) return false;
+  for (std::size_t n = 0; n < vertices_.size(); ++n) {
+    const VoxelIndex first = tsdf_.blocks()[n].index * kSide;
+    for (const SurfaceVertex& vertex : vertices_[n]) {
+      const bool in_block = (vertex.cell.array() >= first.array()).all() &&
+                            (vertex.cell.array() < first.array() + kSide).all();
+      if (!in_block || static_cast<int>(vertex.kind) >= kPixelLabels) return false;
+    }
+  }
+  const auto exists = [&](int n) {
+    return n >= 0 && static_cast<std::size_t>(n) < vertices_.size();
+  };
+  return std::all_of(waiting_.begin(), waiting_.end(), exists);
 }
 
 /// FourFloats cells around a voxel edge that the surface crosses make a quad.

@@ -16,6 +16,11 @@ struct SurfaceVertex {
   Rgb color;
   float fruit_share = 0.0F;  ///< of the pixels seen near it those taken for fruit, 0 … 1
   PixelLabel kind = PixelLabel::background;  ///< most voted of the fruit classes
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(cell, surface, color, fruit_share, kind);
+  }
 };
 
 /// Triangles over vertices; normals and colours of all.
@@ -25,7 +30,7 @@ struct SurfaceMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
 };
 
-/// The zero level of a FruitTsdf, kept up to date block by block (surface nets, Gibson 1998): a
+/// The zero level of a FruitTsdf, kept up to date block by block (surface nets, Gibson 1998). A
 /// vertex is the mean of where the surface crosses its cell's edges. Cells with a corner never seen
 /// have none, so nothing is made up behind leaves.
 class FruitSurface {
@@ -34,10 +39,11 @@ class FruitSurface {
 
   void add(const RgbdFrame& frame, const Image<std::uint8_t>& classes) {
     tsdf_.add(frame, classes);
+    vertices_.resize(tsdf_.blocks().size());
   }
 
-  /// Makes the vertices of changed blocks: of all that had none, and of the others `max_blocks` at
-  /// most in the order they changed; the rest waits. Their numbers, ascending.
+  /// Makes the vertices of changed blocks: of all that had none, and of at most `max_blocks` others
+  /// in the order they changed. The rest waits. Returns the blocks' numbers, ascending.
   std::vector<int> update(int max_blocks = std::numeric_limits<int>::max());
 
   [[nodiscard]] const FruitTsdf& tsdf() const { return tsdf_; }
@@ -46,6 +52,13 @@ class FruitSurface {
   }
   /// All of it as of the last update(), `fruit` all −1.
   [[nodiscard]] SurfaceMesh mesh() const;
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(tsdf_, vertices_, waiting_);
+  }
+  /// After reading: see FruitTsdf::relink().
+  [[nodiscard]] bool relink();
 
  private:
   void extract(const FruitTsdf::Block& block, std::vector<SurfaceVertex>& vertices) const;

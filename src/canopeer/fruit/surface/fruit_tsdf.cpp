@@ -56,7 +56,7 @@ std::optional<float> FruitTsdf::distance_at(const VoxelIndex& voxel) const {
   const VoxelIndex block(voxel.x() >> 3, voxel.y() >> 3, voxel.z() >> 3);
   const int number = block_at(block);
   if (number < 0) return std::nullopt;
-  const Block& held = *blocks_[static_cast<std::size_t>(number)];
+  const Block& held = blocks_[static_cast<std::size_t>(number)];
   const std::size_t at = offset(voxel.x() & 7, voxel.y() & 7, voxel.z() & 7);
   if (held.weight[at] < kSeenWeight) return std::nullopt;
   return held.distance_m[at];
@@ -74,24 +74,28 @@ void FruitTsdf::add(const RgbdFrame& frame, const Image<std::uint8_t>& classes) 
   const TsdfFusion fusion(frame, classes, depths_, options_);
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     constexpr std::size_t kAhead = 8;  // blocks lie apart: the next ones are fetched meanwhile
-    if (i + kAhead < blocks_.size()) __builtin_prefetch(blocks_[i + kAhead].get());
-    fusion.fuse(*blocks_[i]);
+    if (i + kAhead < blocks_.size()) __builtin_prefetch(&blocks_[i + kAhead]);
+    fusion.fuse(blocks_[i]);
   }
 }
 
 /// An empty block, made known to those around it.
 int FruitTsdf::make_block(const VoxelIndex& index) {
   const int number = static_cast<int>(blocks_.size());
-  number_of_.emplace(voxel_key(index), number);
-  Block& block = *blocks_.emplace_back(std::make_unique<Block>());
-  block.index = index;
+  blocks_.emplace_back().index = index;
+  link(number);
+  return number;
+}
+
+void FruitTsdf::link(int number) {
+  Block& block = blocks_[static_cast<std::size_t>(number)];
+  number_of_.emplace(voxel_key(block.index), number);
   for (std::size_t k = 0; k < block.around.size(); ++k) {
     const int i = static_cast<int>(k);
-    const int other = block_at(index + VoxelIndex(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+    const int other = block_at(block.index + VoxelIndex(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
     block.around[k] = other;
-    if (other >= 0) blocks_[static_cast<std::size_t>(other)]->around[26 - k] = number;
+    if (other >= 0) blocks_[static_cast<std::size_t>(other)].around[26 - k] = number;
   }
-  return number;
 }
 
 /// Makes the blocks within the truncation of fruit pixels.
@@ -133,7 +137,7 @@ void FruitTsdf::allocate(const RgbdFrame& frame, const Image<std::uint8_t>& clas
             const VoxelIndex index(x, y, w);
             int number = block_at(index);
             if (number < 0) number = make_block(index);
-            Block& block = *blocks_[static_cast<std::size_t>(number)];
+            Block& block = blocks_[static_cast<std::size_t>(number)];
             if (block.fruit_frame == frames_) continue;
             block.fruit_frame = frames_;
             seen_.push_back(number);
@@ -145,19 +149,41 @@ void FruitTsdf::allocate(const RgbdFrame& frame, const Image<std::uint8_t>& clas
   std::sort(seen_.begin(), seen_.end());
 }
 
+bool FruitTsdf::relink() {
+  constexpr int kFarthest = (1 << 20) / kSide - 1;  // of a block whose voxels have keys
+  number_of_.clear();
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    const VoxelIndex& index = blocks_[i].index;
+    if (index.maxCoeff() >= kFarthest || index.minCoeff() <= -kFarthest) return false;
+    if (block_at(index) >= 0) return false;
+    link(static_cast<int>(i));
+  }
+  return true;
+}
+
+std::array<std::uint8_t, FruitTsdf::kSide * FruitTsdf::kSide> FruitTsdf::Block::rows_with_looks()
+    const {
+  std::array<std::uint8_t, kSide * kSide> rows{};
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    const bool any = looks[i] != TsdfLooks{};
+    rows[i / kSide] |= static_cast<std::uint8_t>(int{any} << i % kSide);
+  }
+  return rows;
+}
+
 std::vector<int> FruitTsdf::take_changed() {
   std::vector<int> numbers;
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     constexpr std::size_t kAhead = 8;  // blocks lie apart: the next ones are fetched meanwhile
-    if (i + kAhead < blocks_.size()) __builtin_prefetch(&blocks_[i + kAhead]->changed);
-    const auto& block = blocks_[i];
-    if (block->changed == 0) continue;
+    if (i + kAhead < blocks_.size()) __builtin_prefetch(&blocks_[i + kAhead].changed);
+    Block& block = blocks_[i];
+    if (block.changed == 0) continue;
     for (int k = 0; k < 8; ++k) {
-      if ((block->changed >> k & 1) == 0) continue;
-      const int number = block->around[13 - (k & 1) - 3 * ((k >> 1) & 1) - 9 * (k >> 2)];
+      if ((block.changed >> k & 1) == 0) continue;
+      const int number = block.around[13 - (k & 1) - 3 * ((k >> 1) & 1) - 9 * (k >> 2)];
       if (number >= 0) numbers.push_back(number);
     }
-    block->changed = 0;
+    block.changed = 0;
   }
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());

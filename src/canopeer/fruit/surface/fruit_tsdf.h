@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
+#include <deque>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -25,6 +25,13 @@ struct TsdfOptions {
   double max_weight = 40.0;   ///< of a voxel, in frames from 0.5 m: older ones fade when it is full
   double changed_m = 0.0004;  ///< a surface that moved less has not changed
 
+  friend bool operator==(const TsdfOptions&, const TsdfOptions&) = default;
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(voxel_m, truncation_m, max_range_m, max_depth_step_m, max_weight, changed_m);
+  }
+
   [[nodiscard]] Expected<void> validate() const;
 };
 
@@ -33,10 +40,17 @@ struct TsdfLooks {
   std::array<float, 3> color{};
   float color_weight = 0.0F;
   std::array<float, kPixelLabels> votes{};  ///< pixels near the surface, by class
+
+  friend bool operator==(const TsdfLooks&, const TsdfLooks&) = default;
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(color, color_weight, votes);
+  }
 };
 
 /// Truncated signed distances around fruits (Curless & Levoy 1996; Newcombe et al. 2011), with
-/// colour and class votes. Only blocks of 8³ voxels near fruit pixels exist; every pixel with depth
+/// colour and class votes. Only blocks of 8³ voxels near fruit pixels exist. Every pixel with depth
 /// that looks through them is taken in: fruit or not, it tells where the surface is and where there
 /// is none (carving). Deterministic; one owner.
 class FruitTsdf {
@@ -54,12 +68,25 @@ class FruitTsdf {
     /// By row along x (y + 8 z), bit x: weight is at least kSeenWeight; distance is negative.
     std::array<std::uint8_t, kSide * kSide> seen{};
     std::array<std::uint8_t, kSide * kSide> inside{};
-    /// Which blocks' surface has changed since take_changed(): bit k is the block below by 1 along
-    /// x (k & 1), y (k & 2), z (k & 4), whose upper cells have corners here; bit 0 is this one.
+    /// Which blocks' surface has changed since take_changed(). Bit 0 is this block. Bit k is the
+    /// block below by 1 along x (k & 1), y (k & 2), z (k & 4), whose upper cells have corners here.
     std::uint8_t changed = 0;
     int fruit_frame = -1;  ///< number of the last frame with a fruit pixel in it
     /// Numbers of the 27 blocks around and with this one, x fastest; −1: there is none.
     std::array<int, 27> around{};
+
+    /// All but `around`; of the looks only those that there are: most voxels have none.
+    template <typename Archive>
+    void serialize(Archive& archive) {
+      archive(index, distance_m, weight, seen, inside, changed, fruit_frame);
+      auto looked_at = rows_with_looks();
+      archive(looked_at);
+      for (std::size_t i = 0; i < looks.size(); ++i) {
+        if ((looked_at[i / kSide] >> i % kSide & 1) != 0) archive(looks[i]);
+      }
+    }
+    /// By row along x, bit x: the voxel has looks.
+    [[nodiscard]] std::array<std::uint8_t, kSide * kSide> rows_with_looks() const;
   };
 
   explicit FruitTsdf(const TsdfOptions& options);
@@ -75,11 +102,21 @@ class FruitTsdf {
   [[nodiscard]] int block_at(const VoxelIndex& block) const;
   /// Truncated signed distance at a voxel; none where nobody has looked.
   [[nodiscard]] std::optional<float> distance_at(const VoxelIndex& voxel) const;
-  [[nodiscard]] const std::vector<std::unique_ptr<Block>>& blocks() const { return blocks_; }
+  [[nodiscard]] const std::deque<Block>& blocks() const { return blocks_; }
   /// Blocks that the last frame's fruit pixels lie in or beside.
   [[nodiscard]] const std::vector<int>& seen_in_last_frame() const { return seen_; }
   [[nodiscard]] int frames() const { return frames_; }
   [[nodiscard]] const TsdfOptions& options() const { return options_; }
+
+  /// Written: every block, how many frames there were, what the last one saw. Not written: whatever
+  /// add() sets before it looks at it (depths of the frame), and what relink() tells anew.
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(blocks_, seen_, frames_);
+  }
+  /// After reading: which blocks are where and beside which; nothing but their indices says so.
+  /// False: that makes no sense.
+  [[nodiscard]] bool relink();
 
   static std::size_t offset(int x, int y, int z) {
     return static_cast<std::size_t>(x + kSide * (y + kSide * z));
@@ -88,9 +125,10 @@ class FruitTsdf {
  private:
   void allocate(const RgbdFrame& frame, const Image<std::uint8_t>& classes);
   int make_block(const VoxelIndex& index);
+  void link(int number);
 
   TsdfOptions options_;
-  std::vector<std::unique_ptr<Block>> blocks_;
+  std::deque<Block> blocks_;
   std::unordered_map<std::uint64_t, int> number_of_;  // never iterated
   std::vector<int> seen_;
   FrameDepths depths_;  // of the last frame

@@ -8,7 +8,8 @@
 #include "canopeer/fruit/fruit_map.h"
 
 // The inside of FruitMap, for its own files: fruit_map.cpp (an update from beginning to end),
-// fruit_patches.cpp (which surface is looked at), fruit_measures.cpp (what is found there).
+// fruit_patches.cpp (which surface is looked at), fruit_measures.cpp (what is found there),
+// fruit_map_state.cpp (all of it as bytes).
 
 namespace canopeer {
 
@@ -21,6 +22,12 @@ struct KnownFruit {
   std::vector<std::uint64_t> cells;   ///< its surface, ascending
   std::vector<int> blocks;            ///< its cells lie in, ascending
   std::vector<SurfacePoint> surface;  ///< until its shape is fitted
+
+  /// `surface` is only there during an update.
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(estimate, evidence, seen, fit, cells, blocks);
+  }
 };
 
 /// Surface of the blocks that hang together, and which block each point comes from.
@@ -39,6 +46,11 @@ struct Sight {
   double time_s = 0.0;
   std::vector<int> blocks;  ///< ascending
   int update = 0;           ///< the first one after it
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(time_s, blocks, update);
+  }
 };
 
 /// Both ascending.
@@ -75,9 +87,17 @@ struct FruitMap::State {
   static constexpr int kNotWaiting = -1;
   std::vector<int> waits_since;  // by block: the update its oldest change was there for
 
+  /// What later calls depend on; rebuild() tells the rest from it.
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(surface, tracker, known, id_changes, fits, sights, updates, waits_since);
+  }
+  [[nodiscard]] bool rebuild();
+
   [[nodiscard]] bool counts(const SurfaceVertex& v) const {
     return v.fruit_share >= options.min_fruit_share;
   }
+  void count_points(int block);
   std::vector<int> update_surface(int max_blocks);
   [[nodiscard]] std::vector<Patch> patches_around(const std::vector<int>& changed) const;
   void collect_surface(Patch& patch) const;
@@ -91,6 +111,7 @@ struct FruitMap::State {
                                   std::vector<int>& concerned);
   void update(const std::vector<int>& new_changes, bool all);
   void count_views();
+  void judge();
   void hand_out();
 };
 

@@ -7,16 +7,18 @@
 
 namespace canopeer {
 
+void FruitMap::State::count_points(int block) {
+  const auto& vertices = surface.vertices(block);
+  const auto count = std::count_if(vertices.begin(), vertices.end(),
+                                   [&](const SurfaceVertex& v) { return counts(v); });
+  fruit_points[static_cast<std::size_t>(block)] = static_cast<int>(count);
+}
+
 /// The numbers of the blocks whose surface is another now.
 std::vector<int> FruitMap::State::update_surface(int max_blocks) {
   std::vector<int> changed = surface.update(max_blocks);
   fruit_points.resize(surface.tsdf().blocks().size(), 0);
-  for (const int block : changed) {
-    const auto& vertices = surface.vertices(block);
-    const auto count = std::count_if(vertices.begin(), vertices.end(),
-                                     [&](const SurfaceVertex& v) { return counts(v); });
-    fruit_points[block] = static_cast<int>(count);
-  }
+  for (const int block : changed) count_points(block);
   return changed;
 }
 
@@ -28,7 +30,7 @@ std::vector<Patch> FruitMap::State::patches_around(const std::vector<int>& chang
   // A changed block may have lost its surface; its neighbours then still want another look.
   std::vector<int> starts;
   for (const int block : changed) {
-    for (const int other : tsdf.blocks()[static_cast<std::size_t>(block)]->around) {
+    for (const int other : tsdf.blocks()[static_cast<std::size_t>(block)].around) {
       if (other >= 0 && has_fruit(other)) starts.push_back(other);
     }
   }
@@ -40,7 +42,7 @@ std::vector<Patch> FruitMap::State::patches_around(const std::vector<int>& chang
     reached[start] = 1;
     patch.blocks.push_back(start);
     for (std::size_t next = 0; next < patch.blocks.size(); ++next) {
-      for (const int other : tsdf.blocks()[static_cast<std::size_t>(patch.blocks[next])]->around) {
+      for (const int other : tsdf.blocks()[static_cast<std::size_t>(patch.blocks[next])].around) {
         if (other < 0 || reached[other] != 0 || !has_fruit(other)) continue;
         reached[other] = 1;
         patch.blocks.push_back(other);
@@ -125,7 +127,7 @@ std::vector<Patch> FruitMap::State::take_patches(const std::vector<int>& changed
   // Where fruit is gone beside a patch that waits, that patch's fruit may have lost it: both wait.
   const FruitTsdf& tsdf = surface.tsdf();
   for (const int block : changed) {
-    const auto& around = tsdf.blocks()[static_cast<std::size_t>(block)]->around;
+    const auto& around = tsdf.blocks()[static_cast<std::size_t>(block)].around;
     const bool waits = std::any_of(around.begin(), around.end(),
                                    [&](int other) { return other >= 0 && left[other] != 0; });
     if (!waits) concerned.push_back(block);

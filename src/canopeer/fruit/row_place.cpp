@@ -1,4 +1,4 @@
-#include "canopeer/fruit/confidence/row_place.h"
+#include "canopeer/fruit/row_place.h"
 
 #include <cmath>
 #include <limits>

@@ -21,6 +21,11 @@ struct RowPlace {
   char side = 'L';       ///< 'L' or 'R' of the row's line, looking along it
   double along_m = 0.0;  ///< from the row's start
   double height_m = 0.0;
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(row, side, along_m, height_m);
+  }
 };
 
 /// In the row whose line is nearest; none when there are no rows.
