@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "canopeer/base/rng.h"
@@ -46,11 +47,12 @@ NetworkDetectorOptions colour_rule() {
 
 TEST(Detectors, AllLabelOnlyWhatTheyReportAndAreConfidentOfNothingElse) {
   const View view = plant();
-  for (const std::string& name : detector_names()) {
+  const DetectorRegistry registry = DetectorRegistry::built_in();
+  for (const std::string& name : registry.names()) {
     DetectorOptions options;
     options.kind = name;
     options.network = colour_rule();
-    const auto detector = make_detector(options);
+    const auto detector = registry.make(options);
     ASSERT_TRUE(detector.has_value()) << name << ": " << detector.error().message;
     const auto detection = (*detector)->detect(view.frame);
     ASSERT_TRUE(detection.has_value());
@@ -68,12 +70,40 @@ TEST(Detectors, AllLabelOnlyWhatTheyReportAndAreConfidentOfNothingElse) {
   }
 }
 
-TEST(Detectors, UnknownNamesAreRefused) {
+TEST(Detectors, AnUnknownNameIsAnErrorThatListsTheKnownOnes) {
   DetectorOptions options;
   options.kind = "oracle";
-  const auto detector = make_detector(options);
+  const auto detector = DetectorRegistry::built_in().make(options);
   ASSERT_FALSE(detector.has_value());
-  EXPECT_NE(detector.error().message.find("oracle"), std::string::npos);
+  EXPECT_NE(detector.error().message.find("'oracle'"), std::string::npos);
+  EXPECT_NE(detector.error().message.find("colour, labels, network"), std::string::npos);
+}
+
+TEST(Detectors, OneFromOutsideIsMadeWithItsOwnOptions) {
+  DetectorRegistry registry = DetectorRegistry::built_in();
+  const auto factory = [](const DetectorOptions& o) -> Expected<std::unique_ptr<Detector>> {
+    LabelDetectorOptions labels;
+    const auto confidence = o.own.find("confidence");
+    if (confidence == o.own.end()) return fail("'confidence' is missing");
+    labels.confidence = std::stod(confidence->second);
+    return std::make_unique<LabelDetector>(labels);
+  };
+  EXPECT_FALSE(registry.add("labels", "", factory).has_value());
+  EXPECT_FALSE(registry.add("Doubtful", "", factory).has_value());
+  ASSERT_TRUE(registry.add("doubtful", "labels, but not quite sure", factory).has_value());
+  EXPECT_EQ(registry.names().back(), "doubtful");
+  EXPECT_EQ(registry.one_line("doubtful"), "labels, but not quite sure");
+
+  DetectorOptions options;
+  options.kind = "doubtful";
+  EXPECT_EQ(registry.make(options).error().message, "'confidence' is missing");
+  options.own["confidence"] = "0.25";
+  const auto detector = registry.make(options);
+  ASSERT_TRUE(detector.has_value());
+  const auto detection = (*detector)->detect(plant().frame);
+  ASSERT_TRUE(detection.has_value());
+  const auto& confidences = detection->confidence.pixels();
+  EXPECT_EQ(*std::max_element(confidences.begin(), confidences.end()), 0.25F);
 }
 
 TEST(ColorDetector, TellsTurningFromRipe) {

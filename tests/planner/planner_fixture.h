@@ -18,7 +18,7 @@ class PlannerFixture {
     planner->map_changed(world.home.change);
   }
   PlannerFixture(std::string_view name, const PlannerOptions& options)
-      : PlannerFixture(std::move(*make_planner(name, options))) {}
+      : PlannerFixture(std::move(*PlannerRegistry::built_in().make(name, options))) {}
 
   [[nodiscard]] PlanningScene scene() const {
     PlanningScene scene;

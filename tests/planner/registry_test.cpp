@@ -5,17 +5,83 @@
 namespace canopeer {
 namespace {
 
-TEST(PlannerRegistry, MakesEveryPlannerItLists) {
-  for (const auto& name : planner_names()) {
-    EXPECT_TRUE(make_planner(name, {}).has_value()) << name;
+/// The least a planner from outside needs.
+class Sleeper : public Planner {
+ public:
+  explicit Sleeper(std::string dream) : dream_(std::move(dream)) {}
+  void begin_segment(const PlanningScene&) override {}
+  Decision decide(const Configuration&, WorkMeter&) override { return {}; }
+  [[nodiscard]] const std::string& dream() const { return dream_; }
+
+ private:
+  std::string dream_;
+};
+
+PlannerRegistry with_sleeper() {
+  PlannerRegistry planners = PlannerRegistry::built_in();
+  EXPECT_TRUE(planners.add("sleeper_2", "waits",
+                           [](const PlannerOptions& o) -> Expected<std::unique_ptr<Planner>> {
+                             const auto dream = o.own.find("dream");
+                             if (dream == o.own.end()) return fail("'dream' is missing");
+                             return std::make_unique<Sleeper>(dream->second);
+                           }));
+  return planners;
+}
+
+TEST(PlannerRegistry, MakesEveryPlannerItListsAndSaysALineAboutIt) {
+  const PlannerRegistry planners = PlannerRegistry::built_in();
+  for (const auto& name : planners.names()) {
+    EXPECT_TRUE(planners.make(name, {}).has_value()) << name;
+    EXPECT_FALSE(planners.one_line(name).empty()) << name;
   }
 }
 
 TEST(PlannerRegistry, AnUnknownNameIsAnErrorThatListsTheKnownOnes) {
-  const auto planner = make_planner("vpm", {});
+  const auto planner = with_sleeper().make("vpm", {});
   ASSERT_FALSE(planner.has_value());
   EXPECT_NE(planner.error().message.find("'vpm'"), std::string::npos);
-  EXPECT_NE(planner.error().message.find("vmp"), std::string::npos);
+  EXPECT_NE(planner.error().message.find("vmp, "), std::string::npos);
+  EXPECT_NE(planner.error().message.find(", sleeper_2"), std::string::npos);
+}
+
+TEST(PlannerRegistry, APlannerFromOutsideIsMadeWithItsOwnOptions) {
+  const PlannerRegistry planners = with_sleeper();
+  EXPECT_EQ(planners.names().back(), "sleeper_2");
+  EXPECT_EQ(planners.one_line("sleeper_2"), "waits");
+  PlannerOptions options;
+  options.own["dream"] = "red fruits";
+  const auto planner = planners.make("sleeper_2", options);
+  ASSERT_TRUE(planner.has_value());
+  EXPECT_EQ(dynamic_cast<const Sleeper&>(**planner).dream(), "red fruits");
+}
+
+TEST(PlannerRegistry, AFactorysErrorIsPassedOn) {
+  const auto planner = with_sleeper().make("sleeper_2", {});
+  ASSERT_FALSE(planner.has_value());
+  EXPECT_EQ(planner.error().message, "planner 'sleeper_2': 'dream' is missing");
+}
+
+TEST(PlannerRegistry, RefusesNamesThatAreTakenOrNone) {
+  PlannerRegistry planners = with_sleeper();
+  const auto factory = [](const PlannerOptions&) { return std::make_unique<Sleeper>(""); };
+  for (const char* name : {"vmp", "sleeper_2", "", "Sleeper", "my planner", "my-planner"}) {
+    const auto added = planners.add(name, "", factory);
+    ASSERT_FALSE(added.has_value()) << name;
+    EXPECT_NE(added.error().message.find("'" + std::string(name) + "'"), std::string::npos);
+  }
+  EXPECT_EQ(planners.names(), with_sleeper().names());
+}
+
+TEST(Planner, WithoutOverridesItWaitsShowsNothingAndHasNoState) {
+  Sleeper planner("");
+  WorkMeter work;
+  planner.map_changed({});
+  planner.grow(1.0, work);
+  EXPECT_EQ(planner.next_task(), nullptr);
+  EXPECT_EQ(planner.status().graph_nodes, 0);
+  EXPECT_TRUE(planner.sketch().views.empty());
+  EXPECT_FALSE(planner.state().has_value());
+  EXPECT_FALSE(planner.restore({}, "").has_value());
 }
 
 }  // namespace

@@ -38,7 +38,8 @@ TEST_P(EveryPlanner, GivesTheSameViewsForTheSameSeed) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, EveryPlanner, ::testing::ValuesIn(planner_names()),
+INSTANTIATE_TEST_SUITE_P(Registry, EveryPlanner,
+                         ::testing::ValuesIn(PlannerRegistry::built_in().names()),
                          [](const auto& one) { return one.param; });
 
 TEST(RvpPlanner, GainOfARayIsTheWeightedShareOfItsUnknownVoxels) {

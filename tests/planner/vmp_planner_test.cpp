@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "support/planning_fixture.h"
 
@@ -103,6 +105,48 @@ TEST_F(VmpPlannerTest, WaitsUntilThereIsAGraphThenMovesFromHome) {
   EXPECT_GT(decision.motion.predicted_gain.value(), 0);
   EXPECT_TRUE(world_.checker.edge_free(decision.motion.waypoints.front(),
                                        decision.motion.waypoints.back()));
+}
+
+TEST_F(VmpPlannerTest, SketchShowsItsGraphAndItsPath) {
+  EXPECT_FALSE(planner_->sketch().at.has_value());  // it has not seen the arm yet
+  Configuration q = world_.frame.home;
+  for (int i = 0; i < 3; ++i) q = planner_->decide(q, work_).motion.waypoints.back();
+  planner_->decide(q, work_);
+  const PlanSketch sketch = planner_->sketch();
+  const ViewGraph& graph = planner_->graph();
+
+  ASSERT_EQ(sketch.views.size(), static_cast<std::size_t>(graph.node_count()));
+  std::int32_t last = -1;
+  int visited = 0;
+  for (const PlanSketch::View& view : sketch.views) {
+    EXPECT_GT(view.id, last);
+    last = view.id;
+    const ViewNode& node = graph.node(static_cast<NodeId>(view.id));
+    EXPECT_FALSE(node.removed);
+    EXPECT_EQ(view.visited, node.visited);
+    EXPECT_EQ(view.kind, node.view.kind);
+    EXPECT_EQ(view.T_world_camera.matrix(), node.view.T_world_camera.matrix());
+    visited += view.visited ? 1 : 0;
+  }
+  EXPECT_EQ(visited, 4);  // home and three more
+
+  EXPECT_EQ(sketch.edges.size(), static_cast<std::size_t>(graph.edge_count()));
+  std::set<std::pair<std::int32_t, std::int32_t>> pairs;
+  for (const PlanSketch::Edge& edge : sketch.edges) {
+    EXPECT_LT(edge.a, edge.b);
+    pairs.emplace(edge.a, edge.b);
+    EXPECT_EQ(graph.edge_time(static_cast<NodeId>(edge.a), static_cast<NodeId>(edge.b)),
+              edge.time_s);
+  }
+  EXPECT_EQ(pairs.size(), sketch.edges.size());
+
+  const std::vector<NodeId> path = planner_->path();
+  ASSERT_EQ(sketch.path.size(), path.size());
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    EXPECT_EQ(sketch.path[i], static_cast<std::int32_t>(path[i]));
+  }
+  ASSERT_TRUE(sketch.at.has_value());
+  EXPECT_EQ(graph.node(static_cast<NodeId>(*sketch.at)).view.q, q);
 }
 
 TEST_F(VmpPlannerTest, GrowSpendsItsTimeAndNoMore) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "canopeer/base/rng.h"
+#include "canopeer/geometry/state_archive.h"
 
 namespace canopeer {
 namespace {
@@ -95,6 +96,42 @@ TEST(ViewGraph, ForgetsOnlyTheCastsThatAChangeTouches) {
   graph.invalidate_casts({block(4), block(5)});
   EXPECT_FALSE(graph.node(near).cast.has_value());
   EXPECT_TRUE(graph.node(far).cast.has_value());
+  EXPECT_EQ(graph.with_casts(), std::vector{far});
+}
+
+TEST(ViewGraph, ReadBackFromItsStateItIsTheSameGraph) {
+  Rng rng(2);
+  ViewGraph graph;
+  for (int i = 0; i < 200; ++i) {
+    ViewPose view = view_at(random_q(rng));
+    view.T_world_camera.translation() = Vec3(rng.uniform(), rng.uniform(), rng.uniform());
+    view.target_world = Vec3(rng.uniform(), rng.uniform(), rng.uniform());
+    view.kind = static_cast<TargetKind>(rng.index(4));
+    const NodeId id = graph.add(std::move(view));
+    graph.node(id).visited = rng.chance(0.2);
+    for (int k = 0; k < 3; ++k)
+      graph.connect(id, static_cast<NodeId>(rng.index(graph.id_count())), rng.uniform());
+    if (rng.chance(0.1)) graph.remove(static_cast<NodeId>(rng.index(graph.id_count())));
+  }
+  const std::string state = state_bytes(graph);
+  ViewGraph again;
+  again.add(view_at(random_q(rng)));  // goes
+  ASSERT_TRUE(read_state_bytes(state, again).has_value());
+  EXPECT_EQ(state_bytes(again), state);
+  EXPECT_EQ(again.id_count(), graph.id_count());
+  EXPECT_EQ(again.node_count(), graph.node_count());
+  EXPECT_EQ(again.edge_count(), graph.edge_count());
+  for (int i = 0; i < 50; ++i) {
+    const Configuration q = random_q(rng);
+    const auto found = graph.nearest_unvisited(q, 7, 3.0, NodeId{0});
+    const auto found_again = again.nearest_unvisited(q, 7, 3.0, NodeId{0});
+    ASSERT_EQ(found_again.size(), found.size());
+    for (std::size_t k = 0; k < found.size(); ++k) EXPECT_EQ(found_again[k].id, found[k].id);
+    ViewPose view = view_at(q);
+    view.T_world_camera.translation() = Vec3(rng.uniform(), rng.uniform(), rng.uniform());
+    const SimilarityLimits limits{.position_m = 0.1};
+    EXPECT_EQ(again.has_similar(view, limits), graph.has_similar(view, limits));
+  }
 }
 
 }  // namespace

@@ -29,8 +29,8 @@ inline constexpr std::size_t kWorkKinds = static_cast<std::size_t>(Work::count);
 /// The name used in cost tables and records, e.g. "view_cast".
 std::string_view work_name(Work kind);
 
-/// Seconds of one core per unit of work. In simulated time a mission's clock advances by these, so
-/// that planning costs mission time and yet a run does not depend on the machine it is made on.
+/// Seconds of one core per unit of work. In simulated time they move a mission's clock on. So
+/// planning costs mission time, and yet a run does not depend on the machine it is made on.
 struct CostTable {
   std::array<double, kWorkKinds> seconds_per_unit{};
 

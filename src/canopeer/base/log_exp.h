@@ -6,9 +6,9 @@
 
 namespace canopeer {
 
-// Logarithm and exponential of four doubles at once, by the rational approximations of the Cephes
-// library (Moshier 1992) in the operations and the order that Eigen's arrays use: the same bits as
-// theirs, with and without wide registers. Errors are below 2 units in the last place.
+// Logarithm and exponential of four doubles at once: the rational approximations of the Cephes
+// library (Moshier 1992). Operations and their order are those of Eigen's arrays, so the bits are
+// theirs too, with and without wide registers. Errors are below 2 units in the last place.
 
 using FourLongs = std::int64_t __attribute__((vector_size(32)));
 

@@ -2,9 +2,9 @@
 
 namespace canopeer {
 
-/// Instruction sets that kernels are compiled for, one body each. A level changes the speed,
-/// never a bit of the result. avx2 has BMI1 and BMI2 too, as all processors with AVX2 do; avx512 is
-/// that with F, BW, DQ and VL.
+/// Instruction sets that kernels are compiled for, one body each. A level changes the speed, never
+/// a bit of the result. avx2 includes BMI1 and BMI2, as all processors with AVX2 have them. avx512
+/// is that with F, BW, DQ and VL.
 enum class SimdLevel { scalar, avx2, avx512 };
 
 inline constexpr SimdLevel kSimdLevels[] = {SimdLevel::scalar, SimdLevel::avx2, SimdLevel::avx512};

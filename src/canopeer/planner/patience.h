@@ -18,6 +18,11 @@ class Patience {
     return decision;
   }
 
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(waited_s_);
+  }
+
  private:
   double max_wait_s_;
   double waited_s_ = 0.0;

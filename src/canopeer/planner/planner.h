@@ -3,13 +3,16 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "canopeer/base/compute_cost.h"
+#include "canopeer/base/expected.h"
 #include "canopeer/map/distance_field.h"
 #include "canopeer/map/frontier.h"
 #include "canopeer/map/voxel_map.h"
+#include "canopeer/planner/plan_sketch.h"
 #include "canopeer/robot/collision_checker.h"
 #include "canopeer/robot/exact_checker.h"
 #include "canopeer/robot/view_ik.h"
@@ -87,6 +90,11 @@ struct PlannerStatus {
   int searches = 0;
   int blocked_edges = 0;   ///< taken out because the new map blocks them
   int off_pose_nodes = 0;  ///< put in because the arm was where no node is, the start included
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(graph_nodes, graph_edges, searches, blocked_edges, off_pose_nodes);
+  }
 };
 
 /// A piece of background work. run() reads the scene's snapshot (in simulated time its map and
@@ -101,19 +109,20 @@ class BackgroundTask {
 /// A view planner. The mission calls it from one thread at a time: begin_segment, then for every
 /// view map_changed and decide (again after `wait`). For the time that passes while the arm moves
 /// or decide is paid for it calls grow (in simulated time), or time_passes, with worker threads
-/// that make tasks (on the wall clock).
+/// that make tasks (on the wall clock). A planner overrides what it needs: begin_segment and decide
+/// are enough.
 class Planner {
  public:
   virtual ~Planner() = default;
 
-  /// Forgets the last segment. `scene` stays valid until the next call.
+  /// Forgets the last segment. `scene` stays valid until the next call of this or of restore.
   virtual void begin_segment(const PlanningScene& scene) = 0;
   /// A frame was fused into the map.
-  virtual void map_changed(MapChange change) = 0;
+  virtual void map_changed(MapChange /*change*/) {}
   /// What to do with the arm at `q`. Foreground: the mission's clock pays for the work counted.
   virtual Decision decide(const Configuration& q, WorkMeter& work) = 0;
   /// So much mission time has passed since the last call.
-  virtual void time_passes(double seconds) = 0;
+  virtual void time_passes(double /*seconds*/) {}
   /// The next piece of background work; null: there is none at present.
   virtual std::unique_ptr<BackgroundTask> next_task() { return nullptr; }
   /// Takes over what a task that has run found; tasks made before the last frame too.
@@ -121,7 +130,22 @@ class Planner {
   /// Time passes, with background work worth `budget_s` by the cost table (a little more is charged
   /// to the next call).
   virtual void grow(double budget_s, WorkMeter& /*work*/) { time_passes(budget_s); }
-  [[nodiscard]] virtual PlannerStatus status() const = 0;
+  [[nodiscard]] virtual PlannerStatus status() const { return {}; }
+  /// What it has in mind; empty: it does not say.
+  [[nodiscard]] virtual PlanSketch sketch() const { return {}; }
+
+  /// All that later calls depend on, as bytes (geometry/state_archive.h), between any two calls of
+  /// a segment; tasks not finished are not in it.
+  [[nodiscard]] virtual Expected<std::string> state() const {
+    return fail("this planner cannot write its state");
+  }
+  /// In place of begin_segment, in the middle of a segment: goes on, to the bit, as the planner
+  /// with the same options that wrote `state`. `scene` is that of the segment, its map as it was
+  /// when the state was written. After an error begin_segment or another restore has to come first.
+  [[nodiscard]] virtual Expected<void> restore(const PlanningScene& /*scene*/,
+                                               std::string_view /*state*/) {
+    return fail("this planner cannot go on from a state");
+  }
 };
 
 }  // namespace canopeer

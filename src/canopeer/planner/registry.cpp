@@ -1,44 +1,40 @@
 #include "canopeer/planner/registry.h"
 
-#include <functional>
 #include <utility>
 
+#include "canopeer/base/check.h"
 #include "canopeer/planner/vmp_released/vmp_released.h"
 
 namespace canopeer {
-namespace {
 
-using Factory = std::function<std::unique_ptr<Planner>(const PlannerOptions&)>;
-
-const std::vector<std::pair<std::string, Factory>>& factories() {
-  // One line a planner; its source and departures are in its own folder.
-  static const std::vector<std::pair<std::string, Factory>> kFactories = {
-      {"vmp", [](const PlannerOptions& o) { return std::make_unique<VmpPlanner>(o.vmp); }},
-      {"vmp_released", [](const PlannerOptions& o) { return make_vmp_released(o.vmp); }},
-      {"rvp", [](const PlannerOptions& o) { return std::make_unique<RvpPlanner>(o.rvp); }},
-      {"random", [](const PlannerOptions& o) { return std::make_unique<RandomPlanner>(o.random); }},
-      {"coverage",
-       [](const PlannerOptions& o) { return std::make_unique<CoveragePlanner>(o.coverage); }},
+PlannerRegistry PlannerRegistry::built_in() {
+  PlannerRegistry all;
+  const auto add = [&](const char* name, const char* one_line, Factory factory) {
+    const auto added = all.add(name, one_line, std::move(factory));
+    CANOPEER_CHECK(added.has_value(), "built-in names are good and differ");
   };
-  return kFactories;
+  // A planner's source and departures are in its own folder.
+  add("vmp", "Graph-based view motion planning (Zaenker et al. 2023)",
+      [](const PlannerOptions& o) { return std::make_unique<VmpPlanner>(o.vmp); });
+  add("vmp_released", "the same as its published code behaves",
+      [](const PlannerOptions& o) { return make_vmp_released(o.vmp); });
+  add("rvp", "the next best view around regions of interest (Zaenker et al. 2021)",
+      [](const PlannerOptions& o) { return std::make_unique<RvpPlanner>(o.rvp); });
+  add("random", "reachable views at random",
+      [](const PlannerOptions& o) { return std::make_unique<RandomPlanner>(o.random); });
+  add("coverage", "a fixed scan, line by line",
+      [](const PlannerOptions& o) { return std::make_unique<CoveragePlanner>(o.coverage); });
+  return all;
 }
 
-}  // namespace
-
-std::vector<std::string> planner_names() {
-  std::vector<std::string> names;
-  for (const auto& [name, factory] : factories()) names.push_back(name);
-  return names;
-}
-
-Expected<std::unique_ptr<Planner>> make_planner(std::string_view name,
-                                                const PlannerOptions& options) {
-  std::string known;
-  for (const auto& [known_name, factory] : factories()) {
-    if (known_name == name) return factory(options);
-    known += (known.empty() ? "" : ", ") + known_name;
-  }
-  return fail("unknown planner '" + std::string(name) + "'; there is: " + known);
+Expected<std::unique_ptr<Planner>> PlannerRegistry::make(std::string_view name,
+                                                         const PlannerOptions& options) const {
+  const auto factory = find(name);
+  if (!factory) return tl::unexpected(factory.error());
+  auto planner = (*factory)(options);
+  if (!planner) return fail_in("planner '" + std::string(name) + "'", planner.error());
+  CANOPEER_CHECK(*planner != nullptr, "a factory gives a planner or an error");
+  return planner;
 }
 
 }  // namespace canopeer

@@ -27,6 +27,12 @@ class ViewMover {
   [[nodiscard]] std::optional<Decision> go(const Configuration& from, const Configuration& to,
                                            TargetKind kind, WorkMeter& work);
 
+  /// What has changed since it was made.
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(plans_);
+  }
+
  private:
   PlanningScene scene_;
   Pose T_base_world_;

@@ -8,10 +8,10 @@
 namespace canopeer {
 
 /// A voxel set laid out for one union at a time, over and over: C(n) of the node a search expands.
-/// Sets are prepared once: their blocks are numbered. Adding one is then an OR per word, counting
-/// what it would add an AND and a popcount. Memory grows with the number of distinct blocks and of
-/// words of the prepared sets, and by four bytes a block of the box around all of them: the sets
-/// are meant to be of views that lie some metres apart.
+/// Sets are prepared once: their blocks are numbered. Then adding one is an OR per word; counting
+/// what it would add is an AND and a popcount. Memory grows with the number of distinct blocks and
+/// of words of the prepared sets, and by four bytes a block of the box around all of them. So the
+/// sets should be of views that lie some metres apart.
 class CellUnion {
  public:
   /// Where a set belongs.

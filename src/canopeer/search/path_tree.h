@@ -8,9 +8,9 @@
 
 namespace canopeer {
 
-/// The search tree over a view graph: for each node reached its predecessor and the sums along the
+/// The search tree over a view graph. Each node reached has its predecessor and the sums along the
 /// path from the root to it. The set C(n) of cells visible along a path is never stored: it is
-/// rebuilt from the views' own sets when a node is expanded, so memory grows with the graph and not
+/// rebuilt from the views' own sets when a node is expanded. So memory grows with the graph, not
 /// with the lengths of its paths.
 class PathTree {
  public:
@@ -24,8 +24,8 @@ class PathTree {
   /// t: view poses on the path to `id`, the root not counted.
   [[nodiscard]] int views(NodeId id) const { return entry(id).sums.views; }
 
-  /// Makes `id`, a reached node, the one whose neighbours are evaluated next: its C(n) is the union
-  /// of the visible sets of all views on the path to it; the root's own set does not count (C = ∅
+  /// Makes `id`, a reached node, the one whose neighbours are evaluated next. Its C(n) is the union
+  /// of the visible sets of all views on the path to it. The root's own set does not count (C = ∅
   /// there).
   void expand(NodeId id);
   /// U that `id` would have behind the expanded node, by an edge of `time_s`.

@@ -10,11 +10,11 @@ struct ReleasedSearchOptions {
   double time_limit_s = 2.0;  ///< by the cost table; 0: none
 };
 
-/// The path search of the published code, where it departs from the paper: nodes are expanded in
-/// the order of accumulated cost, cost is joint distance (Σ|Δq|), and the goal is the node with the
-/// highest |C|_unknown · (ROI + 1)/(t + 1), not divided by cost. Each node keeps its first
-/// predecessor. Every visible set is cast anew in every search. `utility` of the result is that
-/// gain. Stops when the work done is worth `time_limit_s`.
+/// The path search of the published code, where it departs from the paper. Nodes are expanded in
+/// the order of accumulated cost; cost is joint distance (Σ|Δq|). The goal is the node with the
+/// highest |C|_unknown · (ROI + 1)/(t + 1), not divided by cost; `utility` of the result is that
+/// gain. Each node keeps its first predecessor. Every visible set is cast anew in every search.
+/// Stops when the work done is worth `time_limit_s`.
 [[nodiscard]] ViewPath search_released(ViewGraph& graph, NodeId start, const VoxelMap& map,
                                        const ReleasedSearchOptions& options, const CostTable& costs,
                                        WorkMeter& work);

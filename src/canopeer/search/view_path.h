@@ -13,6 +13,11 @@ struct PathStep {
   double time_s = 0.0;  ///< execution time of the edge that leads here
   std::int64_t new_unknown =
       0;  ///< distinct unknown voxels seen here and at no earlier stop of the path
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(node, time_s, new_unknown);
+  }
 };
 
 /// A sequence of views to take, without the node the camera is at. Empty: nothing to go for.

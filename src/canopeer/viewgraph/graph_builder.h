@@ -22,15 +22,15 @@ struct GraphBuilderOptions {
   int max_idle_batches =
       40;  ///< batches in a row without a new node, then rest until targets change
   bool keep_unconnected = false;  ///< views that join nothing stay, as in the published code
-  /// Told of every motion between two views that was proposed as an edge, and whether it was free;
-  /// for measurements. In the thread that joins.
+  /// Told of every motion between two views that was proposed as an edge, and whether it was free.
+  /// For measurements. Called in the thread that joins.
   std::function<void(const Configuration& from, const Configuration& to, bool free)> on_edge{};
 };
 
-/// Grows a view graph batch by batch ([Zaenker23], section III-C): samples view poses, skips those
-/// too similar to present ones, joins each to its nearest neighbours by collision-free straight
-/// joint motions, and drops those that join nothing. Candidate i always draws from random stream i,
-/// so the graph does not depend on the number of threads.
+/// Grows a view graph batch by batch ([Zaenker23], section III-C). It samples view poses and skips
+/// those too similar to present ones. It joins each to its nearest neighbours by collision-free
+/// straight joint motions, and drops those that join nothing. Candidate i always draws from random
+/// stream i, so the graph does not depend on the number of threads.
 class GraphBuilder {
  public:
   /// Keeps pointers to all but the options; they must outlive the builder.
@@ -52,8 +52,8 @@ class GraphBuilder {
   /// too.
   void join_start(NodeId id, const CollisionChecker& checker, WorkMeter& work);
 
-  /// A number of candidates to be sampled together. run() needs nothing of the graph and may go on
-  /// in another thread, beside anything but a change of the map or the end of the builder.
+  /// A number of candidates to be sampled together. run() needs nothing of the graph. It may go on
+  /// in another thread, but the map must not change and the builder must not end meanwhile.
   class Batch {
    public:
     void run();
@@ -79,6 +79,12 @@ class GraphBuilder {
 
   /// Nothing to do until targets change.
   [[nodiscard]] bool resting() const;
+
+  /// What has changed since it was made; the graph writes itself.
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(candidates_, targets_, idle_batches_, start_);
+  }
 
  private:
   struct Joint {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "canopeer/base/rng.h"
@@ -17,6 +18,11 @@ struct TargetShares {
   double roi = 0.5;
   double occupied = 0.3;
   double border = 0.2;
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(roi, occupied, border);
+  }
 };
 
 struct Target {
@@ -24,10 +30,11 @@ struct Target {
   Vec3 p_world = Vec3::Zero();
 };
 
-/// Draws target positions from the frontiers of the map ([Zaenker23], section III-B): first a kind
-/// by its share, then a voxel centre within the kind, uniformly or with a chance in proportion to
-/// its weight. A kind without voxels hands over to the next one, in the order ROI, occupied,
-/// border, ROI. Const calls are thread-safe; a copy shares the targets and is a cheap snapshot.
+/// Draws target positions from the frontiers of the map ([Zaenker23], section III-B). First it
+/// draws a kind by its share. Then it draws a voxel centre within the kind, uniformly or with a
+/// chance in proportion to its weight. A kind without voxels hands over to the next one, in the
+/// order ROI, occupied, border, ROI. Const calls are thread-safe; a copy shares the targets and is
+/// a cheap snapshot.
 class TargetSampler {
  public:
   /// Of a target's position (world); 0 or less: never drawn.
@@ -47,10 +54,26 @@ class TargetSampler {
   /// No open kind has targets.
   [[nodiscard]] bool empty() const;
 
+  template <typename Archive>
+  void save(Archive& archive) const {
+    archive(*kinds_, resolution_m_, shares_, closed_);
+  }
+  template <typename Archive>
+  void load(Archive& archive) {
+    auto kinds = std::make_shared<Kinds>();
+    archive(*kinds, resolution_m_, shares_, closed_);
+    kinds_ = std::move(kinds);
+  }
+
  private:
   struct Weighted {
     std::vector<VoxelIndex> voxels;
     std::vector<double> until;  ///< sum of the weights up to and with this one
+
+    template <typename Archive>
+    void serialize(Archive& archive) {
+      archive(voxels, until);
+    }
   };
   using Kinds = std::array<Weighted, 4>;
   [[nodiscard]] const Weighted& of_kind(TargetKind kind) const {

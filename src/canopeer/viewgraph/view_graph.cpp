@@ -8,12 +8,16 @@ namespace canopeer {
 
 NodeId ViewGraph::add(ViewPose view) {
   nodes_.emplace_back();
-  q_.insert(q_.end(), view.q.begin(), view.q.end());
-  positions_.emplace_back(view.T_world_camera.translation());
-  axes_.emplace_back(view.T_world_camera.linear().col(2));
+  index(view);
   nodes_.back().view = std::move(view);
   ++live_nodes_;
   return static_cast<NodeId>(nodes_.size() - 1);
+}
+
+void ViewGraph::index(const ViewPose& view) {
+  q_.insert(q_.end(), view.q.begin(), view.q.end());
+  positions_.emplace_back(view.T_world_camera.translation());
+  axes_.emplace_back(view.T_world_camera.linear().col(2));
 }
 
 void ViewGraph::connect(NodeId a, NodeId b, double time_s) {
@@ -45,6 +49,16 @@ void ViewGraph::clear() {
   axes_.clear();
   live_nodes_ = 0;
   edges_ = 0;
+}
+
+void ViewGraph::count_and_index() {
+  std::size_t half_edges = 0;
+  for (const ViewNode& n : nodes_) {
+    index(n.view);
+    live_nodes_ += n.removed ? 0 : 1;
+    half_edges += n.edges.size();
+  }
+  edges_ = static_cast<int>(half_edges / 2);
 }
 
 int ViewGraph::open_views(TargetKind kind) const {
@@ -127,6 +141,14 @@ void ViewGraph::invalidate_casts(const std::vector<BlockKey>& changed) {
   for (auto& n : nodes_) {
     if (n.cast && !still_valid(*n.cast, changed)) n.cast.reset();
   }
+}
+
+std::vector<NodeId> ViewGraph::with_casts() const {
+  std::vector<NodeId> ids;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (nodes_[i].cast) ids.push_back(static_cast<NodeId>(i));
+  }
+  return ids;
 }
 
 }  // namespace canopeer

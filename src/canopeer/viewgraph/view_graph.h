@@ -15,6 +15,11 @@ enum class NodeId : std::uint32_t {};
 struct ViewEdge {
   NodeId to{};
   double time_s = 0.0;  ///< execution time of the straight joint motion
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(to, time_s);
+  }
 };
 
 struct ViewNode {
@@ -24,14 +29,20 @@ struct ViewNode {
   bool removed = false;  ///< taken out; has no edges
   std::optional<ViewCast>
       cast;  ///< what the view would see; nothing when not computed or out of date
+
+  /// Without the cast, which follows from the map.
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(view, edges, visited, removed);
+  }
 };
 
 /// Views nearer to each other than both limits are one view.
 struct SimilarityLimits {
   double position_m = 0.04;
   double angle_rad = 0.15;  ///< between the optical axes
-  /// The published measure instead, no metric: similar when (distance of the targets / 0.1 m) ·
-  /// (1 − cos of the angle between the axes) is below this; 0: not used.
+  /// The published measure instead, no metric. Similar when (distance of the targets / 0.1 m) · (1
+  /// − cos of the angle between the axes) is below this; 0: not used.
   double published_below = 0.0;
 };
 
@@ -77,8 +88,24 @@ class ViewGraph {
 
   /// Forgets what every view touched by the changed blocks was expected to see.
   void invalidate_casts(const std::vector<BlockKey>& changed);
+  /// The views of which is known what they would see.
+  [[nodiscard]] std::vector<NodeId> with_casts() const;
+
+  template <typename Archive>
+  void save(Archive& archive) const {
+    archive(nodes_);
+  }
+  template <typename Archive>
+  void load(Archive& archive) {
+    clear();
+    archive(nodes_);
+    count_and_index();
+  }
 
  private:
+  /// Brings all that follows from the nodes up to date.
+  void count_and_index();
+  void index(const ViewPose& view);
   [[nodiscard]] std::vector<Neighbor> nearest_of(const Configuration& q, std::size_t k,
                                                  double max_distance_rad, NodeId except,
                                                  bool visited_too) const;

@@ -30,6 +30,11 @@ struct ViewPose {
   Pose T_world_camera = Pose::Identity();  ///< optical frame
   Vec3 target_world = Vec3::Zero();
   TargetKind kind = TargetKind::none;
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(q, T_world_camera, target_world, kind);
+  }
 };
 
 }  // namespace canopeer

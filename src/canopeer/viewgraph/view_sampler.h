@@ -24,26 +24,26 @@ struct ViewSamplerOptions {
   int rolls = 8;              ///< turns about the optical axis tried; 1: the image is upright
 };
 
-/// Samples view poses: a camera position in the workspace that sees a target at the right distance,
-/// unoccluded, and an arm configuration that gets the camera there free of collisions ([Zaenker23],
-/// section III-B).
+/// Samples view poses: a camera position in the workspace, and an arm configuration that gets the
+/// camera there free of collisions. From there the camera sees a target at the right distance,
+/// unoccluded ([Zaenker23], section III-B).
 class ViewSampler {
  public:
   /// Keeps pointers to all but the options; they must outlive the sampler.
   ViewSampler(const SegmentFrame& frame, const RobotModel& robot, const ArmIk& ik,
               const ViewSamplerOptions& options);
 
-  /// The targets of the map's frontiers that a camera in the workspace can have in reach, weighted
-  /// by the part of the workspace in the box around their reach.
+  /// The targets of the map's frontiers that a camera in the workspace can have in reach. Weights
+  /// are the part of the workspace in the box around their reach.
   [[nodiscard]] TargetSampler targets_in_reach(const FrontierTargets& frontiers,
                                                double resolution_m,
                                                const TargetShares& shares) const;
 
-  /// One candidate; nothing when no try passes all tests. Its kind is drawn once and kept, so that
-  /// the shares of the kinds hold among the views and not only among the tries (views of fruits
-  /// fail most often). `targets` are those in reach. The arm configuration is the collision-free
-  /// one nearest to home, so that neighbouring views are neighbours in joint space too.
-  /// Thread-safe; `work` is counted in the call.
+  /// One candidate; nothing when no try passes all tests. Its kind is drawn once and kept. So the
+  /// shares of the kinds hold among the views, not only among the tries (views of fruits fail most
+  /// often). `targets` are those in reach. The arm configuration is the collision-free one nearest
+  /// to home, so that neighbouring views are neighbours in joint space too. Thread-safe; `work` is
+  /// counted in the call.
   [[nodiscard]] std::optional<ViewPose> sample(const VoxelMap& map, const CollisionChecker& checker,
                                                const TargetSampler& targets, Rng& rng,
                                                WorkMeter& work) const;

@@ -1,5 +1,7 @@
 #include "canopeer/planner/coverage/coverage_planner.h"
 
+#include "canopeer/geometry/state_archive.h"
+
 namespace canopeer {
 
 CoveragePlanner::CoveragePlanner(const CoverageOptions& options) : options_(options) {}
@@ -13,8 +15,6 @@ void CoveragePlanner::begin_segment(const PlanningScene& scene) {
   next_ = 0;
 }
 
-void CoveragePlanner::map_changed(MapChange) {}
-
 Decision CoveragePlanner::decide(const Configuration& q, WorkMeter& work) {
   while (next_ < views_.size()) {
     const FixedView& view = views_[next_++];
@@ -27,8 +27,14 @@ Decision CoveragePlanner::decide(const Configuration& q, WorkMeter& work) {
   return {};  // the scan is done
 }
 
-void CoveragePlanner::time_passes(double) {}
+Expected<std::string> CoveragePlanner::state() const {
+  if (!mover_) return fail("no segment has begun");
+  return state_bytes(*mover_, next_);
+}
 
-PlannerStatus CoveragePlanner::status() const { return {}; }
+Expected<void> CoveragePlanner::restore(const PlanningScene& scene, std::string_view state) {
+  begin_segment(scene);
+  return read_state_bytes(state, *mover_, next_);
+}
 
 }  // namespace canopeer

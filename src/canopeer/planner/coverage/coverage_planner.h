@@ -22,10 +22,9 @@ class CoveragePlanner : public Planner {
   explicit CoveragePlanner(const CoverageOptions& options);
 
   void begin_segment(const PlanningScene& scene) override;
-  void map_changed(MapChange change) override;
   Decision decide(const Configuration& q, WorkMeter& work) override;
-  void time_passes(double seconds) override;
-  [[nodiscard]] PlannerStatus status() const override;
+  [[nodiscard]] Expected<std::string> state() const override;
+  [[nodiscard]] Expected<void> restore(const PlanningScene& scene, std::string_view state) override;
 
  private:
   CoverageOptions options_;

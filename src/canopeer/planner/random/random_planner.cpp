@@ -1,5 +1,7 @@
 #include "canopeer/planner/random/random_planner.h"
 
+#include "canopeer/geometry/state_archive.h"
+
 namespace canopeer {
 namespace {
 
@@ -19,8 +21,6 @@ void RandomPlanner::begin_segment(const PlanningScene& scene) {
   rng_ = Rng(scene.seed, "random views", static_cast<std::uint64_t>(scene.segment.index));
   patience_ = Patience();
 }
-
-void RandomPlanner::map_changed(MapChange) {}
 
 Decision RandomPlanner::decide(const Configuration& q, WorkMeter& work) {
   int plans = 0;
@@ -50,8 +50,14 @@ RandomPlanner::Sight RandomPlanner::draw() {
   }
 }
 
-void RandomPlanner::time_passes(double seconds) { patience_.time_passes(seconds); }
+Expected<std::string> RandomPlanner::state() const {
+  if (!mover_) return fail("no segment has begun");
+  return state_bytes(*mover_, rng_, patience_);
+}
 
-PlannerStatus RandomPlanner::status() const { return {}; }
+Expected<void> RandomPlanner::restore(const PlanningScene& scene, std::string_view state) {
+  begin_segment(scene);
+  return read_state_bytes(state, *mover_, rng_, patience_);
+}
 
 }  // namespace canopeer

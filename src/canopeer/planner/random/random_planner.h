@@ -24,10 +24,10 @@ class RandomPlanner : public Planner {
   explicit RandomPlanner(const RandomOptions& options);
 
   void begin_segment(const PlanningScene& scene) override;
-  void map_changed(MapChange change) override;
   Decision decide(const Configuration& q, WorkMeter& work) override;
-  void time_passes(double seconds) override;
-  [[nodiscard]] PlannerStatus status() const override;
+  void time_passes(double seconds) override { patience_.time_passes(seconds); }
+  [[nodiscard]] Expected<std::string> state() const override;
+  [[nodiscard]] Expected<void> restore(const PlanningScene& scene, std::string_view state) override;
 
  private:
   struct Sight {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "canopeer/geometry/state_archive.h"
 #include "canopeer/geometry/voxel_ray.h"
 
 namespace canopeer {
@@ -31,6 +32,10 @@ void RvpPlanner::begin_segment(const PlanningScene& scene) {
 
 void RvpPlanner::map_changed(MapChange change) {
   targets_ = std::move(change.targets);
+  find_regions();
+}
+
+void RvpPlanner::find_regions() {
   Box around = scene_.segment.sampling_region_world;
   around.extend(transformed(scene_.segment.workspace_base, scene_.segment.T_world_base));
   nearness_.rebuild(*scene_.map, around);
@@ -123,8 +128,16 @@ std::optional<Vec3> RvpPlanner::surface_normal(const VoxelIndex& target) const {
   return away.normalized();
 }
 
-void RvpPlanner::time_passes(double seconds) { patience_.time_passes(seconds); }
+Expected<std::string> RvpPlanner::state() const {
+  if (!mover_) return fail("no segment has begun");
+  return state_bytes(targets_, *mover_, rng_, patience_);
+}
 
-PlannerStatus RvpPlanner::status() const { return {}; }
+Expected<void> RvpPlanner::restore(const PlanningScene& scene, std::string_view state) {
+  begin_segment(scene);
+  if (auto ok = read_state_bytes(state, targets_, *mover_, rng_, patience_); !ok) return ok;
+  find_regions();
+  return {};
+}
 
 }  // namespace canopeer

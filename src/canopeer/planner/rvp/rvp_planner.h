@@ -35,8 +35,9 @@ class RvpPlanner : public Planner {
   void begin_segment(const PlanningScene& scene) override;
   void map_changed(MapChange change) override;
   Decision decide(const Configuration& q, WorkMeter& work) override;
-  void time_passes(double seconds) override;
-  [[nodiscard]] PlannerStatus status() const override;
+  void time_passes(double seconds) override { patience_.time_passes(seconds); }
+  [[nodiscard]] Expected<std::string> state() const override;
+  [[nodiscard]] Expected<void> restore(const PlanningScene& scene, std::string_view state) override;
 
   /// Gain of the ray camera → target: Σ over its unknown voxels of 0.5 + 0.5·v by the number of
   /// its voxels, v the nearness to a ROI.
@@ -51,6 +52,7 @@ class RvpPlanner : public Planner {
     TargetKind kind = TargetKind::none;
     double utility = 0.0;
   };
+  void find_regions();
   [[nodiscard]] std::vector<Candidate> draw_views(TargetKind kind, const Vec3& camera_now,
                                                   WorkMeter& work);
   [[nodiscard]] std::vector<Candidate> draw_and_choose(const Configuration& q, WorkMeter& work);

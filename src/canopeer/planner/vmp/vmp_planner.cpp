@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "canopeer/base/check.h"
+#include "canopeer/geometry/state_archive.h"
 #include "canopeer/robot/straight_timing.h"
 #include "canopeer/search/random_walk.h"
+#include "canopeer/search/view_casts.h"
 
 namespace canopeer {
 namespace {
@@ -23,6 +25,9 @@ void keep_roi_neighbors(const VoxelMap& map, std::vector<VoxelIndex>& voxels) {
     return true;
   });
 }
+
+/// As sketches name views.
+std::int32_t number(NodeId id) { return static_cast<std::int32_t>(id); }
 
 struct BatchTask : BackgroundTask {
   BatchTask(GraphBuilder::Batch b, std::shared_ptr<const MapSnapshot> s)
@@ -133,6 +138,41 @@ PlannerStatus VmpPlanner::status() const {
   status.graph_nodes = graph_.node_count();
   status.graph_edges = graph_.edge_count();
   return status;
+}
+
+PlanSketch VmpPlanner::sketch() const {
+  PlanSketch sketch;
+  for (std::size_t i = 0; i < graph_.id_count(); ++i) {
+    const auto id = static_cast<NodeId>(i);
+    const ViewNode& node = graph_.node(id);
+    if (node.removed) continue;
+    const ViewPose& view = node.view;
+    sketch.views.push_back({view.T_world_camera, view.kind, node.visited, number(id)});
+    for (const ViewEdge& edge : node.edges) {
+      if (id < edge.to) sketch.edges.push_back({number(id), number(edge.to), edge.time_s});
+    }
+  }
+  for (const PathStep& step : path_) sketch.path.push_back(number(step.node));
+  if (started_) sketch.at = number(at_);
+  return sketch;
+}
+
+Expected<std::string> VmpPlanner::state() const {
+  if (!builder_) return fail("no segment has begun");
+  // The other searches look at no cast of an earlier one.
+  const bool kept = options_.search == VmpOptions::Search::best_first;
+  return state_bytes(*this, kept ? graph_.with_casts() : std::vector<NodeId>());
+}
+
+Expected<void> VmpPlanner::restore(const PlanningScene& scene, std::string_view state) {
+  begin_segment(scene);
+  std::vector<NodeId> with_casts;
+  if (auto ok = read_state_bytes(state, *this, with_casts); !ok) return ok;
+  // What a view would see is kept only as long as no block its rays cross has changed, so a cast
+  // on the present map gives the same. It was paid for when it was first made.
+  WorkMeter paid;
+  ensure_casts(graph_, with_casts, *scene_.map, options_.path_search.fan, paid);
+  return {};
 }
 
 std::vector<NodeId> VmpPlanner::path() const {

@@ -53,10 +53,20 @@ class VmpPlanner : public Planner {
   void finish_task(BackgroundTask& task, WorkMeter& work) override;
   void grow(double budget_s, WorkMeter& work) override;
   [[nodiscard]] PlannerStatus status() const override;
+  [[nodiscard]] PlanSketch sketch() const override;
+  [[nodiscard]] Expected<std::string> state() const override;
+  [[nodiscard]] Expected<void> restore(const PlanningScene& scene, std::string_view state) override;
 
   [[nodiscard]] const ViewGraph& graph() const { return graph_; }
   /// Views of the present path still to be taken.
   [[nodiscard]] std::vector<NodeId> path() const;
+
+  /// What has changed since the segment began, but for what the views would see.
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(graph_, *builder_, path_, at_, goal_, started_, searched_, executed_rad_, path_age_s_,
+            credit_s_, waited_s_, stood_s_, search_just_ran_, walks_, counts_);
+  }
 
  private:
   void arrive(const Configuration& q, WorkMeter& work);
