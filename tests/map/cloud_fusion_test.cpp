@@ -1,7 +1,6 @@
 #include "canopeer/map/cloud_fusion.h"
 
 #include <gtest/gtest.h>
-#include <octomap/octomap.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <limits>
 
 #include "ball_scene.h"
+#include "octomap_oracle.h"
 #include "same_map.h"
 
 namespace canopeer {
@@ -91,17 +91,7 @@ TEST(CloudFusion, IsOctoMapVoxelByVoxelOnRandomScenes) {
       fuse_cloud(map, {points, Pose::Identity(), origin.cast<double>(), {}}, options);
       tree.insertPointCloud(cloud, octomap::point3d(origin.x(), origin.y(), origin.z()), 1.6);
     }
-    tree.expand();
-    std::int64_t compared = 0, different = 0;
-    for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
-      const auto key = leaf.getKey();
-      const VoxelIndex v(key[0] - 32768, key[1] - 32768, key[2] - 32768);
-      ++compared;
-      const bool same =
-          std::abs(map.occupancy_log_odds(v) - static_cast<double>(leaf->getLogOdds())) < 1e-3 &&
-          (map.occupancy(v) == Occupancy::occupied) == tree.isNodeOccupied(*leaf);
-      different += !same;
-    }
+    const auto [compared, different] = compare(map, tree);
     EXPECT_GT(compared, 20000);
     EXPECT_EQ(different, 0) << "seed " << seed;
     EXPECT_EQ(compared, map.observed_voxels()) << "seed " << seed;

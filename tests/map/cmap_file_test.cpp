@@ -1,4 +1,4 @@
-#include "canopeer/map/files/cmap_file.h"
+#include "canopeer/map/cmap_file.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

@@ -8,7 +8,7 @@
 
 #include "ball_scene.h"
 #include "canopeer/base/atomic_file.h"
-#include "canopeer/map/files/cmap_file.h"
+#include "canopeer/map/cmap_file.h"
 #include "canopeer/map/octomap_file.h"
 
 namespace canopeer {

@@ -1,7 +1,6 @@
 // Laws of fusing frames, on seeded random scenes.
 
 #include <gtest/gtest.h>
-#include <octomap/octomap.h>
 
 #include <cmath>
 #include <limits>
@@ -10,6 +9,7 @@
 #include "ball_scene.h"
 #include "canopeer/map/view_cast.h"
 #include "canopeer/map/voxel_union.h"
+#include "octomap_oracle.h"
 #include "same_map.h"
 
 namespace canopeer {
@@ -172,28 +172,9 @@ TEST(FusionLaws, TheExactModeIsOctoMapOnRandomScenes) {
       FusionOptions fusion;
       fusion.max_range_m = 1.3;
       fuse_exact(map, view.frame, view.roi, fusion);
-      octomap::Pointcloud cloud;
-      for (int v = 0; v < 48; ++v) {
-        for (int u = 0; u < 64; ++u) {
-          const double depth = static_cast<double>(view.frame.depth.at(u, v));
-          const Eigen::Vector3f p =
-              (view.frame.T_world_camera * (depth * view.frame.intrinsics.ray(u, v))).cast<float>();
-          if (p.allFinite()) cloud.push_back(p.x(), p.y(), p.z());
-        }
-      }
-      const Eigen::Vector3f o = view.frame.T_world_camera.translation().cast<float>();
-      tree.insertPointCloud(cloud, octomap::point3d(o.x(), o.y(), o.z()), 1.3);
+      insert_frame(view.frame, 1.3, tree);
     }
-    tree.expand();
-    std::int64_t compared = 0, different = 0;
-    for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
-      const auto key = leaf.getKey();
-      const VoxelIndex v(key[0] - 32768, key[1] - 32768, key[2] - 32768);
-      ++compared;
-      different +=
-          std::abs(map.occupancy_log_odds(v) - static_cast<double>(leaf->getLogOdds())) >= 1e-3 ||
-          (map.occupancy(v) == Occupancy::occupied) != tree.isNodeOccupied(*leaf);
-    }
+    const auto [compared, different] = compare(map, tree);
     EXPECT_GT(compared, 1000);
     EXPECT_NEAR(static_cast<double>(map.observed_voxels()), static_cast<double>(compared),
                 0.001 * static_cast<double>(compared));

@@ -1,13 +1,13 @@
 #include "canopeer/map/fusion.h"
 
 #include <gtest/gtest.h>
-#include <octomap/octomap.h>
 #include <tbb/global_control.h>
 
 #include <cmath>
 #include <limits>
 
 #include "ball_scene.h"
+#include "octomap_oracle.h"
 
 namespace canopeer {
 namespace {
@@ -142,29 +142,9 @@ TEST(Fusion, TheExactModeIsOctoMapVoxelByVoxel) {
     FusionOptions fusion;
     fusion.max_range_m = 1.1;  // some points are beyond
     fuse_exact(map, view.frame, view.roi, fusion);
-    octomap::Pointcloud cloud;
-    for (int v = 0; v < 60; ++v) {
-      for (int u = 0; u < 80; ++u) {
-        const double depth = static_cast<double>(view.frame.depth.at(u, v));
-        const Vec3 p = view.frame.T_world_camera * (depth * view.frame.intrinsics.ray(u, v));
-        cloud.push_back(static_cast<float>(p.x()), static_cast<float>(p.y()),
-                        static_cast<float>(p.z()));
-      }
-    }
-    const Eigen::Vector3f o = view.frame.T_world_camera.translation().cast<float>();
-    tree.insertPointCloud(cloud, octomap::point3d(o.x(), o.y(), o.z()), 1.1);
+    insert_frame(view.frame, 1.1, tree);
   }
-  tree.expand();
-  std::int64_t compared = 0, different = 0;
-  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
-    const auto key = leaf.getKey();
-    const VoxelIndex v(key[0] - 32768, key[1] - 32768, key[2] - 32768);
-    ++compared;
-    const bool same =
-        std::abs(map.occupancy_log_odds(v) - static_cast<double>(leaf->getLogOdds())) < 1e-3 &&
-        (map.occupancy(v) == Occupancy::occupied) == tree.isNodeOccupied(*leaf);
-    different += !same;
-  }
+  const auto [compared, different] = compare(map, tree);
   EXPECT_GT(compared, 5000);
   EXPECT_EQ(compared, map.observed_voxels());
   // OctoMap keeps points in single precision: a ray may graze one voxel more or less.

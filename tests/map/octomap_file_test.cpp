@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 #include <octomap/ColorOcTree.h>
-#include <octomap/octomap.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 
 #include "ball_scene.h"
 #include "canopeer/base/atomic_file.h"
+#include "octomap_oracle.h"
 #include "same_map.h"
 
 namespace canopeer {
@@ -26,10 +26,6 @@ std::filesystem::path temporary(const std::string& name) {
 std::unique_ptr<octomap::OcTree> read_with_octomap(const std::filesystem::path& path) {
   std::unique_ptr<octomap::AbstractOcTree> any(octomap::AbstractOcTree::read(path.string()));
   return std::unique_ptr<octomap::OcTree>(dynamic_cast<octomap::OcTree*>(any.release()));
-}
-
-VoxelIndex index_of(const octomap::OcTreeKey& key) {
-  return {key[0] - 32768, key[1] - 32768, key[2] - 32768};
 }
 
 TEST(OctomapFile, OctoMapReadsTheOccupancyBack) {

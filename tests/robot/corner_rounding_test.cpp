@@ -2,8 +2,8 @@
 
 #include "canopeer/robot/exact_checker.h"
 #include "canopeer/robot/motion_planner.h"
+#include "canopeer/robot/path_timing.h"
 #include "canopeer/robot/straight_timing.h"
-#include "canopeer/robot/timing/path_timing.h"
 #include "robot_fixture.h"
 
 namespace canopeer {

@@ -30,12 +30,12 @@ struct CloudFusionOptions {
 [[nodiscard]] Expected<void> check_placement(const VoxelMap& map, const CloudScan& scan,
                                              const CloudFusionOptions& options = {});
 
-/// Fuses one scan as fuse_exact fuses a frame: every voxel at most once; voxels that hold an end
-/// point get a hit, else voxels that a ray crosses before its end get a miss. ROI log-odds change
-/// in voxels with end points that somebody looked at: a hit when one of them is fruit, else a miss.
-/// Points that are not finite or at the origin count for nothing. `roi_confidence` is empty or as
-/// long as `points`; check_placement() holds. In parallel; the result does not depend on the number
-/// of threads nor on the order of the points.
+/// Fuses one scan as fuse_exact fuses a frame: every voxel at most once. Voxels that hold an end
+/// point get a hit; of the others, those that a ray crosses before its end get a miss. ROI log-odds
+/// change in voxels with end points that somebody looked at: a hit when one of them is fruit, else
+/// a miss. Points that are not finite or at the origin count for nothing. `roi_confidence` is empty
+/// or as long as `points`; check_placement() holds. In parallel; the result depends neither on the
+/// number of threads nor on the order of the points.
 FuseResult fuse_cloud(VoxelMap& map, const CloudScan& scan, const CloudFusionOptions& options = {});
 
 }  // namespace canopeer

@@ -23,10 +23,10 @@ struct DistanceFieldOptions {
 };
 
 /// Truncated distance to the nearest occupied voxel (or what DistanceTo says), for the many
-/// collision checks of planning.
-/// Exact squared distances in voxels by separable min-plus passes (Felzenszwalb & Huttenlocher
-/// 2012, here truncated) over tiles of 32³ voxels; only tiles within reach of a change are
-/// computed again. Const calls are thread-safe; a copy is a snapshot.
+/// collision checks of planning. Squared distances in voxels are exact. They come from separable
+/// min-plus passes (Felzenszwalb & Huttenlocher 2012, here truncated) over tiles of 32³ voxels.
+/// Only tiles within reach of a change are computed again. Const calls are thread-safe; a copy is a
+/// snapshot.
 class DistanceField {
  public:
   DistanceField(const DistanceFieldOptions& options, double resolution_m);
@@ -37,8 +37,8 @@ class DistanceField {
   void rebuild(const VoxelMap& map);
 
   /// A lower bound on the distance (m) from p to the nearest occupied voxel (a cube), or what
-  /// DistanceTo says, less than one voxel diagonal below it; never more than truncation_m().
-  /// Outside world(), where nothing is known: truncation_m().
+  /// DistanceTo says. It is less than one voxel diagonal below that distance, and never more than
+  /// truncation_m(). Outside world(), where nothing is known: truncation_m().
   [[nodiscard]] float distance(const Vec3& p_world) const;
   [[nodiscard]] double truncation_m() const { return truncation_m_; }
   [[nodiscard]] double resolution_m() const { return resolution_m_; }

@@ -13,6 +13,11 @@ struct FrontierTargets {
   std::vector<VoxelIndex> roi;       ///< an 18-neighbour is ROI and an 18-neighbour is unknown
   std::vector<VoxelIndex> occupied;  ///< a 6-neighbour is occupied and a 6-neighbour is unknown
   std::vector<VoxelIndex> border;    ///< a 6-neighbour is unknown, none is occupied
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(roi, occupied, border);
+  }
 };
 
 /// Targets whose centres lie in `world` (neighbours may lie outside it). Bitwise on whole blocks,

@@ -11,12 +11,12 @@ namespace canopeer {
 struct FusionOptions {
   /// Points farther from the camera (Euclidean) are no end points; space is freed up to here.
   double max_range_m = 3.0;
-  /// A pixel without return (0, NaN, infinite) frees its ray up to max_range_m; a negative one
+  /// A pixel without return (0, NaN, infinite) frees its ray up to max_range_m. A negative one
   /// (what the robot's own links are masked with) never does. Off by default: a surface too near
   /// gives no return either.
   bool clear_no_return = false;
-  /// Pixels of the ROI mask are how sure the detector is, 0 … 255, instead of no (0) and yes: the
-  /// ROI probability of a hit rises with it from miss_probability to hit_probability, in a voxel by
+  /// Pixels of the ROI mask are how sure the detector is, 0 … 255, instead of no (0) and yes. The
+  /// ROI probability of a hit rises with it from miss_probability to hit_probability. A voxel takes
   /// its surest pixel. A mask of 0 and 255 gives the same either way.
   bool roi_is_confidence = false;
   /// Not above best_simd_level(). Changes the speed only.
@@ -31,12 +31,12 @@ struct FuseResult {
   std::vector<BlockKey> changed;
 };
 
-/// Fuses one frame, every voxel at most once: voxels that hold an end point get a hit, else voxels
-/// whose centre is seen in front of the surface get a miss. ROI log-odds change in voxels with end
-/// points only: a hit when a pixel of `roi` ended there, else a miss; an empty `roi` (frame not
-/// segmented) leaves them alone. Depth that is NaN, infinite, ≤ 0 or out of range is no end point.
-/// `roi` is empty or as large as the depth image; the pose is finite. The result does not depend
-/// on the number of threads.
+/// Fuses one frame, every voxel at most once. Voxels that hold an end point get a hit; of the
+/// others, those whose centre is seen in front of the surface get a miss. ROI log-odds change in
+/// voxels with end points only: a hit when a pixel of `roi` ended there, else a miss. An empty
+/// `roi` (frame not segmented) leaves them alone. Depth that is NaN, infinite, ≤ 0 or out of range
+/// is no end point. `roi` is empty or as large as the depth image; the pose is finite. The result
+/// does not depend on the number of threads.
 FuseResult fuse(VoxelMap& map, const RgbdFrame& frame, const Mask& roi,
                 const FusionOptions& options = {});
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "canopeer/base/atomic_file.h"
-#include "canopeer/map/files/cmap_file.h"
+#include "canopeer/map/cmap_file.h"
 #include "canopeer/map/files/map_cloud.h"
 #include "canopeer/map/octomap_file.h"
 

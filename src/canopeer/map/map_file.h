@@ -29,8 +29,8 @@ struct MapFile {
 [[nodiscard]] Expected<std::vector<std::filesystem::path>> write_map(
     const VoxelMap& map, const std::filesystem::path& path);
 
-/// An error when the ending names no format, or the file's directory is not there: what to ask
-/// before a long computation whose result goes to `path`.
+/// An error when the ending names no format, or the file's directory is not there. Ask before a
+/// long computation whose result goes to `path`.
 [[nodiscard]] Expected<void> check_map_destination(const std::filesystem::path& path);
 
 }  // namespace canopeer

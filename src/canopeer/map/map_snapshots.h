@@ -8,9 +8,9 @@
 namespace canopeer {
 
 /// Hands the state of a map from the one thread that changes it to any number that read. A reader
-/// keeps the snapshot it took for as long as it likes; it is never changed. What waits for what:
-/// publish() and latest() hold a lock for as long as it takes to copy a pointer, never while blocks
-/// are copied, fused or freed.
+/// keeps the snapshot it took for as long as it likes; it is never changed. publish() and latest()
+/// hold a lock for as long as it takes to copy a pointer, never while blocks are copied, fused or
+/// freed.
 class MapSnapshots {
  public:
   /// For the thread that owns `map`; costs a pointer per page of the map. Pages changed after this

@@ -13,16 +13,16 @@
 namespace canopeer {
 
 /// The rays that stand for a camera's view: from the optical centre to a grid of points on the
-/// plane at `depth_m`, evenly spaced, the outermost on the border of the field of view. Angles in
-/// (0, π); columns and rows ≥ 1 (a single one lies in the middle).
+/// plane at `depth_m`. The points are evenly spaced, the outermost on the border of the field of
+/// view. Angles in (0, π); columns and rows ≥ 1 (a single one lies in the middle).
 struct ViewFan {
   double fov_x_rad = 80.0 * std::numbers::pi / 180.0;
   double fov_y_rad = 60.0 * std::numbers::pi / 180.0;
   int columns = 16;
   int rows = 12;
   double depth_m = 1.0;  ///< along the optical axis, of every ray's end
-  /// A ray ends when it has crossed so much unknown space (rounded up to voxels, at least one):
-  /// what lies behind it is likely hidden by something not seen yet. Infinite: as in [Zaenker23].
+  /// A ray ends when it has crossed so much unknown space (rounded up to voxels, at least one).
+  /// What lies behind is likely hidden by something not seen yet. Infinite: as in [Zaenker23].
   double max_unknown_m = std::numeric_limits<double>::infinity();
 };
 

@@ -61,14 +61,14 @@ struct UpdateResult {
   std::vector<BlockKey> changed;    ///< blocks whose masks changed, sorted
 };
 
-/// Voxel map of the world: per voxel a log-odds of being occupied and one of being region of
-/// interest (fruit), in a hash of 8³ blocks; per block bit masks of what the voxels are. Log-odds
-/// are fixed point (1/2048), so sums do not depend on order or machine. Blocks whose observed
-/// voxels all have one log-odds (most of free space) keep just that.
+/// Voxel map of the world. Each voxel has a log-odds of being occupied and one of being region of
+/// interest (fruit). Voxels lie in a hash of blocks of 8³; each block has bit masks of what its
+/// voxels are. Log-odds are fixed point (1/2048), so sums do not depend on order or machine. A
+/// block whose observed voxels all have one log-odds (most of free space) keeps just that.
 ///
 /// Const calls are thread-safe. A copy is a snapshot: it shares with the original what neither has
-/// changed since, costs a pointer a page of some dozen blocks, and may be read (or written) by
-/// another thread while this map takes the next frame.
+/// changed since. It costs a pointer a page of some dozen blocks. Another thread may read (or
+/// write) it while this map takes the next frame.
 class VoxelMap {
  public:
   /// `options` must be valid.

@@ -8,7 +8,7 @@
 namespace canopeer {
 
 /// The union of many voxel sets, one after the other, each used a few times only (sets used often
-/// are worth preparing: CellUnion). Blocks are found by a table that follows from their indices, so
+/// are worth preparing: CellUnion). A table that follows from their indices finds the blocks. So
 /// adding a set, or counting what it would add, costs what it holds, however much is there already.
 /// The memory is used again after clear().
 class VoxelUnion {

@@ -15,8 +15,8 @@ struct FruitView {
   std::vector<std::uint32_t> points;  ///< visible surface points, indices
 };
 
-/// Which parts of the fruits can be seen from where: points spread evenly over the fruits'
-/// surfaces, and one ray from each to the camera that nothing may block, the fruit itself included.
+/// Which parts of the fruits can be seen from where. Points are spread evenly over the fruits'
+/// surfaces. From each a ray goes to the camera; nothing may block it, the fruit itself included.
 class OcclusionProbe {
  public:
   explicit OcclusionProbe(const Scene& scene);
@@ -48,8 +48,8 @@ struct FruitVisibility {
 };
 
 /// Positions on a ring: 165 directions spread evenly over the sphere, 0.3, 0.5 and 0.7 m from the
-/// fruit, within 0.45 m of the middle of the aisle (x = 0) and between 0.1 and 1.6 m above the
-/// ground, or up to `top_m` where plants are taller.
+/// fruit. They lie within 0.45 m of the middle of the aisle (x = 0), and between 0.1 and 1.6 m
+/// above the ground, or up to `top_m` where plants are taller.
 struct RingOptions {
   int directions = 165;
   std::vector<double> distances_m = {0.3, 0.5, 0.7};

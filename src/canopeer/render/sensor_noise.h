@@ -16,20 +16,21 @@ struct SensorNoiseOptions {
   /// Between the two imagers; disparity = fx · baseline / depth. 0: no stereo, and none of the
   /// four faults of the disparity.
   double baseline_m = 0.0;
-  /// Axial noise: the standard deviation of depth is depth² · this / (fx · baseline), the law of
-  /// stereo (Khoshelham & Oude Elberink, "Accuracy and resolution of Kinect depth data for indoor
-  /// mapping applications", Sensors 12(2), 2012; for this family of cameras Grunnet-Jepsen,
-  /// Sweetser & Woodfill, "Best-known-methods for tuning Intel RealSense D400 depth cameras for
-  /// best performance", Intel white paper, who reckon with about 0.08 px on well-textured walls).
+  /// Axial noise: the standard deviation of depth is depth² · this / (fx · baseline). It is the law
+  /// of stereo (Khoshelham & Oude Elberink, "Accuracy and resolution of Kinect depth data for
+  /// indoor mapping applications", Sensors 12(2), 2012). For this family of cameras:
+  /// Grunnet-Jepsen, Sweetser & Woodfill, "Best-known-methods for tuning Intel RealSense D400 depth
+  /// cameras for best performance", Intel white paper. They reckon with about 0.08 px on
+  /// well-textured walls.
   double disparity_noise_px = 0.0;
-  /// Matching windows make neighbours err alike: the noise is interpolated between independent
+  /// Matching windows make neighbours err alike. The noise is interpolated between independent
   /// values this far apart (our choice of form). ≤ 1: every pixel for itself.
   double correlation_px = 1.0;
   /// Disparities come in steps (of 1/32 px from these cameras: librealsense reads five fractional
   /// bits); 0: any value.
   double disparity_step_px = 0.0;
   /// No return where something nearer stands between the surface and the second imager, left of a
-  /// foreground object (the "shadow" that Khoshelham & Oude Elberink describe).
+  /// foreground object. Khoshelham & Oude Elberink describe this "shadow".
   bool baseline_shadow = false;
 
   /// Lateral noise: edges waver by pixels drawn with this standard deviation, after Nguyen, Izadi &

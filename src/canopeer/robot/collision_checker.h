@@ -21,12 +21,12 @@ struct CollisionOptions {
   double sphere_excess_m = 0.008;  ///< how far the spheres may stick out of the links sideways
 };
 
-/// Fast, conservative collision test of one arm on a standing trolley: links as spheres, against
-/// the other links' exact shapes and against a distance field of the map; where a sphere comes too
-/// near the map, the link's shape itself against the voxels around. What it calls free is free on
-/// the true geometry; it may reject states that miss a voxel by the padding, or another link by the
-/// padding plus the spheres' excess. Allocates nothing. Const members are safe to call from several
-/// threads.
+/// Fast, conservative collision test of one arm on a standing trolley. Links as spheres are held
+/// against the other links' exact shapes and against a distance field of the map. Where a sphere
+/// comes too near the map, the link's shape itself is held against the voxels around. What it calls
+/// free is free on the true geometry. It may reject states that miss a voxel by the padding, or
+/// another link by the padding plus the spheres' excess. Allocates nothing. Const members are safe
+/// to call from several threads.
 class CollisionChecker {
  public:
   /// `robot` must outlive the checker.
@@ -40,10 +40,10 @@ class CollisionChecker {
   /// No collision with the robot itself, the trolley or the map, and within the joint limits.
   [[nodiscard]] bool state_free(const Configuration& q) const;
 
-  /// Whether the straight joint-space motion a → b is free throughout, ends included. Not sampled:
-  /// an interval is passed only when the clearances at its two ends exceed what any point of a link
-  /// can move in between (Schwarzer, Saha, Latombe 2005), so nothing thin is stepped over. Each
-  /// state looked at is added to `states_checked` when given.
+  /// Whether the straight joint-space motion a → b is free throughout, ends included. It is not
+  /// sampled: an interval is passed only when the clearances at its two ends exceed what any point
+  /// of a link can move in between (Schwarzer, Saha, Latombe 2005). So nothing thin is stepped
+  /// over. Each state looked at is added to `states_checked` when given.
   [[nodiscard]] bool edge_free(const Configuration& a, const Configuration& b,
                                int* states_checked = nullptr) const;
 
@@ -51,8 +51,8 @@ class CollisionChecker {
   [[nodiscard]] bool arc_free(const BlendedPath::Piece& arc, int* states_checked = nullptr) const;
 
   /// The same for a start that is not free itself, because of what the map learnt since the arm
-  /// went there: on the way no link comes nearer to anything than it is at `start` (or its
-  /// padding), and at `to` all is free. Below the padding the way is looked at every millimetre.
+  /// went there. On the way no link comes nearer to anything than it is at `start` (or its
+  /// padding). At `to` all is free. Below the padding the way is looked at every millimetre.
   [[nodiscard]] bool escape_free(const Configuration& start, const Configuration& to,
                                  int* states_checked = nullptr) const;
 
@@ -63,8 +63,8 @@ class CollisionChecker {
  private:
   static constexpr int kMaxArmLinks = 24;
   static constexpr int kMaxSpheres = 512;  // more: the spheres are made coarser
-  /// How far beyond the clearance asked for the voxels near a link's shape are looked at, so that
-  /// its clearance is known a little beyond that too.
+  /// The voxels near a link's shape are looked at this far beyond the clearance asked for. So its
+  /// clearance is known a little beyond that too.
   static constexpr double kShapeMarginM = 0.01;
   /// Per arm link: how far it is from whatever it must not touch, at least; metres.
   using Clearances = std::array<double, kMaxArmLinks>;
@@ -130,7 +130,7 @@ class CollisionChecker {
   std::vector<Obstacle> obstacles_;
   std::vector<SphereGroup> groups_;
   // Per obstacle and arm link, the links in steps of four: the squared distance between their
-  // bounds from which on they are apart; negative: they need not be.
+  // bounds from which on they are apart. Negative: they need not be.
   std::vector<double> apart2_m2_;
   double max_radius_m_ = 0.0;
 };

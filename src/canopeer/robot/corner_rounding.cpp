@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "canopeer/base/check.h"
+#include "canopeer/robot/path_timing.h"
 #include "canopeer/robot/straight_timing.h"
-#include "canopeer/robot/timing/path_timing.h"
 
 namespace canopeer {
 namespace {

@@ -6,8 +6,8 @@
 
 namespace canopeer {
 
-/// What an arm follows: straight lines in joint space between waypoints, and around the waypoints
-/// in between arcs (BlendedPath), so that it need not stop there.
+/// What an arm follows: straight lines in joint space between waypoints. Around the waypoints in
+/// between there are arcs (BlendedPath), so that it need not stop there.
 struct JointPath {
   std::vector<Configuration> waypoints{};  ///< rad (m); the first is where the arm is
   /// One for each waypoint: how far the path may pass it, Euclidean joint distance, rad (m). 0: the

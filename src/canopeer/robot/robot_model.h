@@ -48,8 +48,8 @@ struct JointLimits {
 /// Kinematics of an arm with a camera on a trolley. Immutable, so safe to share between threads.
 class RobotModel {
  public:
-  /// Checks that the description is one tree, that the setup's names are in it with the right
-  /// types, that the arm joints have finite limits, and that home states lie within them. The error
+  /// Checks that the description is one tree, and that the setup's names are in it with the right
+  /// types. Arm joints must have finite limits, and home states must lie within them. The error
   /// names what is wrong.
   [[nodiscard]] static Expected<RobotModel> make(RobotDescription description, RobotSetup setup);
 
@@ -71,8 +71,8 @@ class RobotModel {
   [[nodiscard]] Pose T_base_camera(const Configuration& q) const;
 
   using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, kMaxArmJoints>;
-  /// The same, and how the camera's position (rows 0 … 2) and orientation (rows 3 … 5) move with
-  /// each joint, both in the arm base frame. Allocates nothing.
+  /// The same, and how the camera moves with each joint: its position (rows 0 … 2) and its
+  /// orientation (rows 3 … 5). Both in the arm base frame. Allocates nothing.
   void camera_jacobian(const Configuration& q, Pose& T_base_camera, Jacobian& jacobian) const;
 
   /// A joint's axis as a line in the arm base frame.
@@ -175,7 +175,7 @@ class RobotModel {
 };
 
 /// Σ|Δq|, rad: the joint distance of the paper's thresholds. A metre of a prismatic joint counts as
-/// a radian: that is what a radian moves the camera of an arm stretched out by a metre.
+/// a radian: a radian moves the camera of an arm stretched out by a metre that far.
 [[nodiscard]] double joint_distance(const Configuration& a, const Configuration& b);
 
 }  // namespace canopeer

@@ -26,8 +26,9 @@ struct Sphere {
 [[nodiscard]] double signed_distance(const CollisionShape& shape, const Vec3& p_shape);
 
 /// A lower bound on the distance between the shape and a cube of half edge `half_m` around
-/// `p_shape` with its axes along the columns of `R_shape_cube`; negative: they may touch. From the
-/// plane that holds the shape back from the cube's centre, so exact where the two face each other.
+/// `p_shape`, with its axes along the columns of `R_shape_cube`. Negative: they may touch. It comes
+/// from the plane that holds the shape back from the cube's centre, so it is exact where the two
+/// face each other.
 [[nodiscard]] double cube_distance(const CollisionShape& shape, const Vec3& p_shape,
                                    const Eigen::Matrix3d& R_shape_cube, double half_m);
 

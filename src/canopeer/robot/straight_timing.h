@@ -4,8 +4,8 @@
 
 namespace canopeer {
 
-/// Minimum-time straight motion in joint space between two standstills: q(t) = from + s(t)·Δ with s
-/// from 0 to 1 under |Δ_i|·ṡ ≤ v_i and |Δ_i|·|s̈| ≤ a_i, so a trapezoid (or triangle) in ṡ.
+/// Minimum-time straight motion in joint space between two standstills: q(t) = from + s(t)·Δ, s
+/// from 0 to 1. Under |Δ_i|·ṡ ≤ v_i and |Δ_i|·|s̈| ≤ a_i that is a trapezoid (or triangle) in ṡ.
 class StraightMotion {
  public:
   StraightMotion(const Configuration& from, const Configuration& to, const JointLimits& limits);

@@ -24,11 +24,11 @@ enum class IkKind { kUrLike, kSphericalWrist, kNumeric };
 [[nodiscard]] std::string_view ik_kind_name(IkKind kind);
 
 /// Inverse kinematics of any arm of up to kMaxArmJoints joints. The last six joints are solved in
-/// closed form when their axes (not names) allow it: built like a UR (axes 2, 3, 4 parallel), or
-/// with a spherical wrist behind a shoulder and elbow with parallel axes. Joints before those six
-/// (a rail, say) are sampled. Every other arm is solved numerically. Immutable and safe to share
-/// between threads; results depend on the arguments only. With vectors that have room, nothing
-/// allocates.
+/// closed form when their axes (not names) allow it. Such arms are built like a UR (axes 2, 3, 4
+/// parallel), or have a spherical wrist behind a shoulder and elbow with parallel axes. Joints
+/// before those six (a rail, say) are sampled. Every other arm is solved numerically. Immutable and
+/// safe to share between threads; results depend on the arguments only. With vectors that have
+/// room, nothing allocates.
 class ArmIk {
  public:
   /// Recognises the arm and proves the solver against forward kinematics; an error says what an

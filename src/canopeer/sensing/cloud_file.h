@@ -26,8 +26,8 @@ struct CloudFile {
 
 /// Reads `.ply` (ASCII, binary of either byte order), `.pcd` (ASCII, binary, compressed) or `.csv`
 /// (a head that names x, y, z, or three columns), by the ending. Of all properties x, y, z,
-/// normals, colours, `roi` and `fruit` are kept. Points may be NaN. The
-/// error names the file and, in text, the line. Memory stays in proportion to the file.
+/// normals, colours, `roi` and `fruit` are kept. Points may be NaN. The error names the file and,
+/// in text, the line. Memory stays in proportion to the file.
 [[nodiscard]] Expected<CloudFile> read_cloud(const std::filesystem::path& path);
 
 /// The same from the bytes of a file; `name` stands for it in errors.

@@ -28,10 +28,10 @@ struct CloudFolder {
   PoseGaps gaps;                   ///< clouds that are no frames
 };
 
-/// Finds the `.ply` and `.pcd` files of a folder and their poses. With a trajectory: when every
-/// name (without ending) is a number within the trajectory's time, it is the time stamp; else the
-/// n-th cloud has the n-th pose, and there must be as many of each. Without one each file must say
-/// its pose itself. Fails when there are no clouds, or no poses for any.
+/// Finds the `.ply` and `.pcd` files of a folder and their poses. With a trajectory there are two
+/// ways. When every name (without ending) is a number within the trajectory's time, it is the time
+/// stamp. Else the n-th cloud has the n-th pose, and there must be as many of each. Without a
+/// trajectory each file must say its pose itself. Error: there are no clouds, or no poses for any.
 [[nodiscard]] Expected<CloudFolder> open_cloud_folder(const std::filesystem::path& directory,
                                                       const CloudFolderOptions& options = {});
 

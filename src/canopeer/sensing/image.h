@@ -14,6 +14,11 @@ struct Rgb {
   friend bool operator==(const Rgb& a, const Rgb& b) {
     return a.r == b.r && a.g == b.g && a.b == b.b;
   }
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(r, g, b);
+  }
 };
 
 /// Row-major pixels; (0, 0) is the upper left one, u runs right, v down.

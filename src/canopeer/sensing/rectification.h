@@ -6,8 +6,8 @@
 
 namespace canopeer {
 
-/// Takes the lens out of images, as camera drivers do: each pixel of the pinhole image gets the
-/// nearest pixel of the one seen through the lens, so depth stays unmixed and all images stay
+/// Takes the lens out of images, as camera drivers do. Each pixel of the pinhole image gets the
+/// nearest pixel of the one seen through the lens. So depth stays unmixed, and all images stay
 /// registered. The intrinsics are the same before and after.
 class Rectification {
  public:

@@ -25,8 +25,9 @@ struct PoseGaps {
   }
 };
 
-/// Where a camera was, and when: the text files of the TUM RGB-D data sets, a line `timestamp tx ty
-/// tz qx qy qz qw` per pose (commas count as blanks, # begins a comment), time stamps rising.
+/// Where a camera was, and when: the text files of the TUM RGB-D data sets. A pose is a line
+/// `timestamp tx ty tz qx qy qz qw`, time stamps rising. Commas count as blanks; # begins a
+/// comment.
 class Trajectory {
  public:
   /// The error names file and line, and what was expected there.

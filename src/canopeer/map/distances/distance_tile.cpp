@@ -284,11 +284,7 @@ CANOPEER_KERNEL_BODY bool run_body(const TileSurroundings& around, Passes<Cell>&
     return run_body(around, p, out);                                      \
   }
 
-CANOPEER_KERNELS(scalar, )
-#if defined(__x86_64__)
-CANOPEER_KERNELS(avx2, CANOPEER_TARGET_AVX2)
-CANOPEER_KERNELS(avx512, CANOPEER_TARGET_AVX512)
-#endif
+CANOPEER_EACH_LEVEL(CANOPEER_KERNELS)
 
 template <typename Cell>
 struct Kernels {

@@ -10,7 +10,7 @@
 #include "canopeer/base/atomic_file.h"
 #include "canopeer/base/byte_order.h"
 #include "canopeer/base/check.h"
-#include "canopeer/map/files/cmap_file.h"
+#include "canopeer/map/cmap_file.h"
 #include "canopeer/map/files/cmap_format.h"
 
 namespace canopeer {

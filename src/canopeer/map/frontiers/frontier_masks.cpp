@@ -94,11 +94,7 @@ struct NearKernels {
   TARGET void near18_##NAME(const Columns& columns, Slice* near) { near18_body(columns, near); } \
   constexpr NearKernels kNear_##NAME = {near6_##NAME, near18_##NAME};
 
-CANOPEER_KERNELS(scalar, )
-#if defined(__x86_64__)
-CANOPEER_KERNELS(avx2, CANOPEER_TARGET_AVX2)
-CANOPEER_KERNELS(avx512, CANOPEER_TARGET_AVX512)
-#endif
+CANOPEER_EACH_LEVEL(CANOPEER_KERNELS)
 
 // `Kind` picks the bits of a block's slice.
 template <typename Kind>

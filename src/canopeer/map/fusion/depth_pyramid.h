@@ -7,9 +7,9 @@
 
 namespace canopeer {
 
-/// Range of depths in any rectangle of an image in constant time: minima and maxima of square
-/// windows of 2, 4, 8 … pixels, each level made of four windows of the one below. (A sparse table
-/// in two dimensions: Bender & Farach-Colton 2000, here at every second pixel.)
+/// Range of depths in any rectangle of an image in constant time. It keeps minima and maxima of
+/// square windows of 2, 4, 8 … pixels; four windows of the level below make one. (A sparse table in
+/// two dimensions: Bender & Farach-Colton 2000, here at every second pixel.)
 class DepthPyramid {
  public:
   /// `depth` must have the size `k` says and at least one pixel, all finite and none negative,

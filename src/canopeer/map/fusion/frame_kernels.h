@@ -46,9 +46,9 @@ struct LabelledRow {
 };
 
 /// A pinhole camera in single precision, and the smallest and largest depths of windows of 2^l ×
-/// 2^l pixels (levels 1 … top) that start at every second pixel: `wide` windows a row, all levels
-/// in one array, `level_size` items apart. Any rectangle up to 2^(top + 1) − 2 pixels wide is
-/// covered nearly tightly by four windows that overlap.
+/// 2^l pixels (levels 1 … top) that start at every second pixel. A row has `wide` windows; all
+/// levels lie in one array, `level_size` items apart. Four windows that overlap cover any rectangle
+/// up to 2^(top + 1) − 2 pixels wide nearly tightly.
 struct FlatPyramid {
   int width = 0, height = 0;
   float fx = 0, fy = 0, cx = 0, cy = 0;
@@ -110,8 +110,8 @@ struct BlockProjection {
   float z_least = 0, z_most = 0;  ///< of z
 };
 
-/// What is known of the eight half blocks (4 × 4 × 4 voxels; x, y, z of the half from the lowest
-/// bit on) of a block: cubes 8 · place … 8 · place + 7 of some.
+/// What is known of the eight half blocks of a block (4 × 4 × 4 voxels; x, y, z of the half from
+/// the lowest bit on). They are the cubes 8 · place … 8 · place + 7 of `views`.
 struct HalfBlocks {
   const CubeViews& views;
   const PixelRects& rects;
@@ -130,8 +130,8 @@ struct HalfBlocks {
 /// processors that is slower than loads one by one.
 struct FrameKernels {
   void (*end_point_row)(const PixelRow& row, const PixelRowEnds& ends);
-  /// Bit u % 64 of first[u / 64]: pixel u has an end point, and neither the pixel to the left nor
-  /// the one above ends in the same voxel with the same label.
+  /// Bit u % 64 of first[u / 64] is set when pixel u has an end point, and neither the pixel to the
+  /// left nor the one above ends in the same voxel with the same label.
   void (*first_pixels)(const LabelledRow& row, std::uint64_t* first);
   /// out[i] = min(depth[i] · scale, 65535) rounded down; no depth is negative.
   void (*coarsen)(const float* depth, std::size_t count, float scale, std::uint16_t* out);

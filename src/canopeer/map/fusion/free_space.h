@@ -17,9 +17,9 @@ struct FreeSpace {
 };
 
 /// The voxels whose centres are seen nearer than `free_depth` (per pixel, along the axis) at the
-/// pixel they project to: at most one test a voxel, whole chunks and blocks at once where the depth
-/// pyramid allows. The order is fixed, chunk by chunk. In parallel. What `free` held is forgotten,
-/// its memory used again.
+/// pixel they project to. A voxel is tested at most once; whole chunks and blocks at once where the
+/// depth pyramid allows. The order is fixed, chunk by chunk. In parallel. What `free` held is
+/// forgotten, its memory used again.
 void find_free_space(const DepthImage& free_depth, const CameraIntrinsics& intrinsics,
                      const Pose& T_world_camera, double resolution_m, const FrameKernels& kernels,
                      FreeSpace& free);

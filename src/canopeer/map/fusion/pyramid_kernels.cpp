@@ -223,11 +223,7 @@ CANOPEER_KERNEL_BODY CubeViews classify_body(const FlatPyramid& pyramid, const C
   constexpr PyramidKernels kPyramid_##NAME = {coarsen_##NAME, halve_##NAME, widen_##NAME, \
                                               classify_##NAME};
 
-CANOPEER_KERNELS(scalar, )
-#if defined(__x86_64__)
-CANOPEER_KERNELS(avx2, CANOPEER_TARGET_AVX2)
-CANOPEER_KERNELS(avx512, CANOPEER_TARGET_AVX512)
-#endif
+CANOPEER_EACH_LEVEL(CANOPEER_KERNELS)
 
 }  // namespace
 

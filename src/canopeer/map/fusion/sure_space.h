@@ -5,16 +5,15 @@
 
 namespace canopeer {
 
-/// What the exact fusion of a frame need not walk. A voxel that is no smaller than a pixel's
-/// footprint is crossed by the ray of the pixel its centre falls on: that ray passes its centre by
-/// at most √½ pixels, inside the ball of the voxel's half side. So when that pixel's ray is free
+/// What the exact fusion of a frame need not walk. Take a voxel that is no smaller than a pixel's
+/// footprint, and the pixel its centre falls on. That pixel's ray passes the centre by at most √½
+/// pixels, inside the ball of the voxel's half side, so it crosses the voxel. When the ray is free
 /// well beyond the voxel, the voxel is free, and no other ray need say so.
 struct SureSpace {
   /// Voxels whose centres are seen nearer than this (as find_free_space() has it) are free.
   DepthImage depth;
   /// Voxels that a pixel's ray crosses between these two depths along the axis are all of that
-  /// kind: theirs and those of the pixels around, as far as the voxels' centres can fall. Equal:
-  /// none are.
+  /// kind. Their centres may fall on the pixels around it, so those count too. Equal: none are.
   DepthImage from;
   DepthImage to;
 };

@@ -4,8 +4,9 @@
 
 namespace canopeer {
 
-/// Memory that the system is asked to back with huge pages: what is read and written here and there
-/// all over costs far fewer faults at first and walks through page tables later on. Zeros.
+/// Memory that the system is asked to back with huge pages. For what is read and written here and
+/// there all over: it costs far fewer faults at first, and fewer walks through page tables later
+/// on. Zeros.
 class HugeMemory {
  public:
   /// A huge page of x86-64; the memory starts at a multiple of it.

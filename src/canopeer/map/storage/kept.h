@@ -4,10 +4,10 @@
 
 namespace canopeer {
 
-/// A value whose memory the thread keeps for the next one of its type: frames need buffers of a
-/// megabyte, and to hand them back to the system and have them cleared anew costs a millisecond a
-/// frame. What the last one left is still in it. While one is in use, another of the type (a task
-/// that the thread takes up while it waits for others) starts with nothing.
+/// A value whose memory the thread keeps for the next one of its type. Frames need buffers of a
+/// megabyte; to hand them back to the system and have them cleared anew costs a millisecond a
+/// frame. What the last one left is still in it. While one is in use, another of the type starts
+/// with nothing (in a task that the thread takes up while it waits for others).
 template <typename T>
 class Kept {
  public:

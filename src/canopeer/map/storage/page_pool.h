@@ -5,10 +5,11 @@
 
 namespace canopeer {
 
-/// Memory for the pages of paged arrays, all of one size: cut from slabs of 2 MB that the system is
-/// asked to back with huge pages. Maps are read and written block by block, here and there; with
-/// pages of 4 KB that costs a fault each at first and a walk through the page tables ever after.
-/// A slab goes back to the system when its last page does, but for 16 that are kept. Thread-safe.
+/// Memory for the pages of paged arrays, all of one size. They are cut from slabs of 2 MB that the
+/// system is asked to back with huge pages. Maps are read and written block by block, here and
+/// there: with pages of 4 KB each costs a fault at first, and a walk through the page tables ever
+/// after. A slab goes back to the system when its last page does, but for 16 that are kept.
+/// Thread-safe.
 class PagePool {
  public:
   /// `page_bytes`: at most half a slab; pages are aligned to 64 bytes.

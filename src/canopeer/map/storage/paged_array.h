@@ -11,9 +11,9 @@
 
 namespace canopeer {
 
-/// An array in pages that its copies share: a copy costs a pointer a page, and whoever writes to a
-/// page that others hold too gets a page of its own first. Growing moves no item. Copies may be
-/// used from different threads; one array is written from one thread at a time, but for owned().
+/// An array in pages that its copies share. A copy costs a pointer a page. Whoever writes to a page
+/// that others hold too gets a page of its own first. Growing moves no item. Copies may be used
+/// from different threads; one array is written from one thread at a time, but for owned().
 template <typename T, std::size_t kPageItems>
 class PagedArray {
  public:

@@ -87,7 +87,7 @@ struct RaySteps {
 /// its end. At most 64 times the steps of the shortest one, or times overflow.
 using WalkRays = void (*)(const RayLanes& rays, std::size_t voxels, const RaySteps& out);
 
-/// Turns bits per step and lane (`steps` steps, read in eights) into a row of bits a lane: bit i of
+/// Turns bits per step and lane (`steps` steps, read in eights) into a row of bits a lane. Bit i of
 /// word w is that of step 64 w + i. Returns the words of a row.
 std::size_t turn_to_rows(const std::uint8_t* lanes, std::size_t steps, std::uint64_t* rows);
 

@@ -16,8 +16,8 @@ struct RasterBody {
   Pose T_world_body = Pose::Identity();
 };
 
-/// Where a body is from a camera: its points p are at turn · (p − eye) + shift, which is (x, y) in
-/// pixels off the principal point and times the depth, and the depth. Taking the eye off first
+/// Where a body is from a camera. Its points p are at turn · (p − eye) + shift: first (x, y) in
+/// pixels off the principal point and times the depth, then the depth. Taking the eye off first
 /// keeps the digits of points near the camera, wherever in the world both are.
 struct BodyView {
   Eigen::Matrix3f turn;

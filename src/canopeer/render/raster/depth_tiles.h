@@ -12,9 +12,9 @@ struct PixelBox {
   int first_row = 0, last_row = 0;
 };
 
-/// What a view shows so far: per pixel the nearness (1 / depth, 1/m) of the nearest surface and
-/// which one it is; and per tile of 8 × 8 pixels how near all of it is at least, so that what is
-/// behind need not be drawn. Rows of tiles may be worked on by different threads.
+/// What a view shows so far. Each pixel has the nearness (1 / depth, 1/m) of the nearest surface,
+/// and which one it is. Each tile of 8 × 8 pixels has how near all of it is at least, so what is
+/// behind need not be drawn. Different threads may work on rows of tiles.
 class DepthTiles {
  public:
   static constexpr int kTile = 8;  // pixels a side

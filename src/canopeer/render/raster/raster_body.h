@@ -1,12 +1,12 @@
 #pragma once
 
-// The rasteriser's inner loops, written once and compiled for each instruction set: the including
-// file says with CANOPEER_RASTER_NAME what they are called, and with its compile options what
-// vectors there are.
+// The rasteriser's inner loops, written once and compiled for each instruction set. The including
+// file says what they are called with CANOPEER_RASTER_NAME, and what vectors there are with its
+// compile options.
 //
-// A pixel is covered by a triangle when its centre lies on the same side of all three edges. An
-// edge is the plane through it and the camera; its coefficients come from both ends in a way that
-// gives exactly the negative when the ends are exchanged, so neighbours leave no gap between them,
+// A triangle covers a pixel when the pixel's centre lies on the same side of all three edges. An
+// edge is the plane through it and the camera. Its coefficients come from both ends in a way that
+// gives exactly the negative when the ends are exchanged. So neighbours leave no gap between them,
 // and nothing has to be clipped where the camera is (Olano & Greer, "Triangle scan conversion using
 // 2D homogeneous coordinates", 1997). 1 / depth is linear over the picture.
 

@@ -33,8 +33,8 @@ struct RasterCluster {
   const std::uint8_t* corners = nullptr;  ///< three vertices a triangle
   std::size_t triangles = 0;
   std::uint32_t first_surface = 0;  ///< triangle i is written as first_surface + i
-  /// (x, y) of a model's point p as seen from the camera, in pixels off the principal point and
-  /// times its depth, and the depth: turn · (p − eye) + shift. Row by row.
+  /// A model's point p as seen from the camera is turn · (p − eye) + shift: (x, y) in pixels off
+  /// the principal point and times its depth, and the depth. Row by row.
   float turn[9] = {};
   float eye[3] = {};
   float shift[3] = {};

@@ -29,8 +29,8 @@ class VisibleImage {
   const std::vector<RasterBody>* bodies_ = nullptr;
 };
 
-/// Finds the nearest triangle at every pixel centre of a pinhole camera by drawing all that may be
-/// seen, the nearest groups of triangles first and what is hidden not at all.
+/// Finds the nearest triangle at every pixel centre of a pinhole camera. It draws all that may be
+/// seen, the nearest groups of triangles first, and what is hidden not at all.
 class Rasterizer {
  public:
   /// Soups and groups outlive the rasteriser.

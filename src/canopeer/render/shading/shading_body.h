@@ -1,8 +1,8 @@
 #pragma once
 
-// The renderer's loops over a row of pixels, written once and compiled for each instruction set:
-// the including file says with CANOPEER_SHADING_NAME what they are called, and with its compile
-// options what vectors there are. Arrays are padded to whole vectors.
+// The renderer's loops over a row of pixels, written once and compiled for each instruction set.
+// The including file says what they are called with CANOPEER_SHADING_NAME, and what vectors there
+// are with its compile options. Arrays are padded to whole vectors.
 
 #include "canopeer/render/raster/lanes.h"
 #include "canopeer/render/shading/shading_kernels.h"

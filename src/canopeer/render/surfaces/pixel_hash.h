@@ -4,8 +4,8 @@
 
 namespace canopeer {
 
-/// Well-mixed 64 bits from any 64 bits (the finaliser of SplitMix64): noise that depends on nothing
-/// but its argument, so that pixels can be shaded in any order.
+/// Well-mixed 64 bits from any 64 bits (the finaliser of SplitMix64). The noise depends on nothing
+/// but its argument, so pixels can be shaded in any order.
 inline std::uint64_t pixel_hash(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ULL;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;

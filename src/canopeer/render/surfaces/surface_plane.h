@@ -5,8 +5,8 @@
 
 namespace canopeer {
 
-/// Rays of a camera in a body's frame, in double precision: from `eye` along right · x + down · y
-/// + ahead, where (x, y, 1) is a pixel's ray in the camera's frame.
+/// Rays of a camera in a body's frame, in double precision. They go from `eye` along right · x +
+/// down · y + ahead, where (x, y, 1) is a pixel's ray in the camera's frame.
 struct BodyRays {
   BodyRays() = default;
   BodyRays(const Pose& T_world_body, const Pose& T_world_camera) {

@@ -28,8 +28,8 @@ class SixJointForm {
 /// meeting. `geometry` has six joints. The error says what does not fit.
 [[nodiscard]] Expected<std::unique_ptr<SixJointForm>> make_ur_form(const ArmGeometry& geometry);
 
-/// Arms with axes 4, 5, 6 meeting in one point at right angles, axis 2 at right angles to axis 1
-/// and parallel to axis 3; offsets between them are free. As in Brandstötter, Angerer, Hofbaur, "An
+/// Arms whose axes 4, 5, 6 meet in one point at right angles, with axis 2 at right angles to axis 1
+/// and parallel to axis 3. Offsets between them are free. As in Brandstötter, Angerer, Hofbaur, "An
 /// Analytical Solution of the Inverse Kinematics Problem of Industrial Serial Manipulators with an
 /// Ortho-parallel Basis and a Spherical Wrist", 2014, here without a fixed zero pose.
 [[nodiscard]] Expected<std::unique_ptr<SixJointForm>> make_spherical_wrist_form(

@@ -7,7 +7,7 @@
 namespace canopeer {
 
 /// Damped least squares for any arm (Sugihara, "Solvability-Unconcerned Inverse Kinematics by the
-/// Levenberg–Marquardt Method", IEEE T-RO 2011), started from the reference and from those of a
+/// Levenberg–Marquardt Method", IEEE T-RO 2011). It starts from the reference, and from those of a
 /// fixed table of configurations whose cameras are nearest to what is wanted. Views leave the roll
 /// free: five equations instead of six. Joints at a limit stay there while the step leads outwards.
 class NumericIk : public IkSolver {

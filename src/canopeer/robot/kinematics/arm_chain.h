@@ -7,8 +7,8 @@
 
 namespace canopeer {
 
-/// Forward kinematics of the links an arm moves, compiled from the description: rotations of the
-/// fixed parts that only swap axes cost nothing, and all joints' sines and cosines are computed
+/// Forward kinematics of the links an arm moves, compiled from the description. Rotations of the
+/// fixed parts that only swap axes cost nothing. All joints' sines and cosines are computed
 /// together. Immutable once built, so safe to share between threads; allocates nothing.
 class ArmChain {
  public:

@@ -3,9 +3,9 @@
 namespace canopeer {
 
 /// Sines and cosines of `count` angles (rad, |angle| ≤ 1e5) at once, four per step in vector
-/// registers. Within 1.5 units in the last place; the same bits on every machine (which the C
-/// library's sin() does not promise): wider registers are used where there are any, for the same
-/// operations. `angles`, `sines` and `cosines` must have room for a multiple of four values; what
+/// registers. Within 1.5 units in the last place. The same bits on every machine, which the C
+/// library's sin() does not promise: wider registers are used where there are any, for the same
+/// operations. `angles`, `sines` and `cosines` must have room for a multiple of four values. What
 /// stands in the angles beyond `count` does not matter.
 ///
 /// Argument reduction by π/2 in two parts and the polynomials of fdlibm (Sun Microsystems 1993,

@@ -6,10 +6,10 @@
 
 namespace canopeer {
 
-/// A path through waypoints in joint space, parameterised by its length: straight lines, and at the
-/// waypoints in between circular arcs that touch both lines and pass the waypoint at no more than
-/// a given Euclidean distance (Kunz & Stilman, "Time-Optimal Trajectory Generation for Path
-/// Following with Bounded Acceleration and Velocity", RSS 2012, section IV). Where no arc fits
+/// A path through waypoints in joint space, parameterised by its length. It has straight lines, and
+/// at the waypoints in between circular arcs. An arc touches both lines and passes the waypoint at
+/// no more than a given Euclidean distance (Kunz & Stilman, "Time-Optimal Trajectory Generation for
+/// Path Following with Bounded Acceleration and Velocity", RSS 2012, section IV). Where no arc fits
 /// (no deviation allowed, or the path turns back on itself) it keeps the corner: a motion must stop
 /// there.
 class BlendedPath {

@@ -6,14 +6,14 @@
 
 namespace canopeer {
 
-/// How well a plant's leaves hide a place from level views in front of the row: each blade stands
+/// How well a plant's leaves hide a place from level views in front of the row. Each blade stands
 /// as the flat ellipse between its midrib's ends. Plant frame, rows along y, aisles on both sides.
 class CanopyCover {
  public:
   explicit CanopyCover(const std::vector<PlacedLeaf>& leaves);
 
   /// Largest share of a body of this radius (m) at `centre` that any of fourteen level directions
-  /// shows: up to 30° to either side of straight in front, seen from both aisles.
+  /// shows. They go up to 30° to either side of straight in front, from both aisles.
   [[nodiscard]] double shown_level(const Vec3& centre, double radius_m) const;
 
  private:

@@ -7,8 +7,8 @@
 
 namespace canopeer {
 
-/// Reddish things that are no fruit, one after the other in turn: a red clip round a stem (about
-/// 2 cm), a dry reddish-brown leaf low on the plant, a pink label tied to the stem. Plant frame,
+/// Reddish things that are no fruit, in turn: a red clip round a stem (about 2 cm), a dry
+/// reddish-brown leaf low on the plant, a pink label tied to the stem. Plant frame,
 /// ScenePart::plant is 0. Nothing when there is no place clear of the fruits.
 std::vector<ScenePart> make_distractor(const Plant& plant, int turn, Rng& rng);
 

@@ -18,9 +18,10 @@ struct PlacedPlant {
   double string_m = 0.0;  ///< height over the stem base of the wire its strings hang on; 0: none
 };
 
-/// Grows the plants of a world one after the other so that none touches another's fruits: plants of
-/// the paper are grown anew until they stand clear; leaves of dense plants that touch are left out,
-/// as leaves give way. Plants of a world with `copies` are copies of so many, turned at random.
+/// Grows the plants of a world one after the other, so that none touches another's fruits. Plants
+/// of the paper are grown anew until they stand clear. Leaves of dense plants that touch are left
+/// out, as leaves give way. In a world with `copies` so many plants are grown; the others are
+/// copies of them, turned at random.
 std::vector<PlacedPlant> grow_rows(const WorldOptions& options, std::uint64_t seed);
 
 }  // namespace canopeer

@@ -16,10 +16,12 @@ struct PathTimingOptions {
 /// The fastest motion along a BlendedPath from standstill to standstill under joint velocity and
 /// acceleration limits, up to the grid that arcs are cut into. Reachability analysis in two passes
 /// (Pham & Pham, "A New Approach to Time-Optimal Path Parameterization Based on Reachability
-/// Analysis", IEEE T-RO 2018) over intervals of constant acceleration along the path. The limits
-/// are imposed on each interval with the ranges that the path's derivatives have in it, not at grid
-/// points: they hold at every instant, whatever rate the motion is sampled at. Straight pieces are
-/// timed in closed form, so a path that is one straight line takes the time of StraightMotion.
+/// Analysis", IEEE T-RO 2018) over intervals of constant acceleration along the path.
+///
+/// A departure: the limits are imposed on each interval, with the ranges that the path's
+/// derivatives have in it, not at grid points. So they hold at every instant, whatever rate the
+/// motion is sampled at. Straight pieces are timed in closed form, so a path that is one straight
+/// line takes the time of StraightMotion.
 class PathMotion {
  public:
   /// At least one waypoint, of the limits' size. Never slower than stopping at every waypoint: the

@@ -1,4 +1,4 @@
-#include "canopeer/robot/timing/path_timing.h"
+#include "canopeer/robot/path_timing.h"
 
 #include <algorithm>
 #include <array>
