@@ -1,4 +1,4 @@
-#include "canopeer/mission/background.h"
+#include "canopeer/mission/segment/background.h"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,6 @@ class BusyPlanner : public Planner {
   };
 
   void begin_segment(const PlanningScene&) override {}
-  void map_changed(MapChange) override {}
   Decision decide(const Configuration&, WorkMeter&) override { return {}; }
   void time_passes(double seconds) override { told_s += seconds; }
   std::unique_ptr<BackgroundTask> next_task() override { return std::make_unique<Task>(*this); }
@@ -40,7 +39,6 @@ class BusyPlanner : public Planner {
     work.add(Work::candidate);
     ++finished;
   }
-  PlannerStatus status() const override { return {}; }
 
   std::atomic<int> running{0};
   std::atomic<int> finished{0};
@@ -73,7 +71,7 @@ TEST(Background, WorkersMakeTasksBesideThePlannersCallsButNeverBesideAChangeOfTh
   background.go();
   for (int i = 0; i < 50; ++i) {
     wait_for_tasks(planner, 3);
-    background.alone([&] {
+    background.alone([&](Planner&) {
       EXPECT_EQ(planner.running, 0);
       planner.map_changes = true;
       std::this_thread::yield();
@@ -90,13 +88,32 @@ TEST(Background, BetweenSegmentsNoTaskIsMade) {
   StillClock clock;
   WorkMeter work;
   Background background(planner, clock, 2, work);
-  background.alone([] {});  // does not wake anybody
+  background.alone([](Planner&) {});  // does not wake anybody
   background.go();
   wait_for_tasks(planner, 5);
   background.rest();
   const int finished = planner.finished;
   for (int i = 0; i < 100; ++i) std::this_thread::yield();
   EXPECT_EQ(planner.finished, finished);
+}
+
+TEST(Background, AHoldIsQuietAndItsTimeIsNotTold) {
+  BusyPlanner planner;
+  StillClock clock;
+  WorkMeter work;
+  Background background(planner, clock, 1, work);
+  background.go();
+  wait_for_tasks(planner, 2);
+  background.hold();
+  const int finished = planner.finished;
+  for (int i = 0; i < 100; ++i) std::this_thread::yield();
+  EXPECT_EQ(planner.finished, finished);
+  clock.now = 60.0;
+  background.resume();
+  wait_for_tasks(planner, 2);
+  clock.now = 60.5;
+  background.time_passes(99.0);
+  EXPECT_EQ(planner.told_s, 0.5);
 }
 
 TEST(Background, OnTheWallClockThePlannerIsToldTheTimeThatReallyPassed) {

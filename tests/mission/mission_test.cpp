@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <stdexcept>
 
-#include "canopeer/robot/timing/path_timing.h"
+#include "canopeer/mission/record_keeper.h"
+#include "canopeer/mission/steering_desk.h"
+#include "canopeer/robot/path_timing.h"
 #include "canopeer/scene/worlds.h"
 #include "support/planning_fixture.h"
 
@@ -44,18 +47,15 @@ class MissionTest : public ::testing::Test {
 
   /// Runs the mission over `ports`, whatever they are made of.
   Expected<void> run(Simulation& simulation, const Ports& ports) {
-    Mission mission(test::test_robot(), ik_, simulation.judge().checker(), ports, options_, stop_);
-    return run(simulation, mission);
-  }
-  Expected<void> run(Simulation& simulation, Mission& mission) {
+    const RobotKit robot{test::test_robot(), ik_, simulation.judge().checker()};
+    Mission mission(robot, ports, options_, Registries::built_in());
     simulation.watch_map(&mission.map());
-    mission.on_progress([this](const MissionProgress& p) {
-      EXPECT_LE(p.fraction, 1.0);
-      if (p.views == stop_after_views_) stop_ = true;
-    });
-    auto writer = RecordWriter::create(directory_, {});
-    const auto outcome = mission.run(*writer);
-    record_ = mission.record();
+    auto keeper = RecordKeeper::create(directory_, {});
+    mission.keep(*keeper);
+    if (steering_ != nullptr) mission.steer(*steering_);
+    for (Keeper* other : other_keepers_) mission.keep(*other);
+    const auto outcome = mission.run();
+    record_ = keeper->record();
     return outcome;
   }
 
@@ -69,8 +69,8 @@ class MissionTest : public ::testing::Test {
   const ArmIk ik_ = *ArmIk::make(test::test_robot());
   const Scene scene_ = make_world(scenario_1_world(), 1);
   MissionOptions options_;
-  std::atomic<bool> stop_{false};
-  int stop_after_views_ = -1;
+  Steering* steering_ = nullptr;
+  std::vector<Keeper*> other_keepers_;
   RunRecord record_;
   std::filesystem::path directory_;
 };
@@ -165,11 +165,233 @@ TEST_F(MissionTest, ACameraThatFailsEndsTheRunAndLosesNothing) {
 }
 
 TEST_F(MissionTest, StopEndsItAfterTheMotionUnderWay) {
-  stop_after_views_ = 2;
+  SteeringPolicy policy("two views", [](const SteeringPoint& at) {
+    return at.views >= 2 ? SteeringWord::Kind::stop : SteeringWord::Kind::go_on;
+  });
+  steering_ = &policy;
   Simulation simulation = simulate();
   ASSERT_TRUE(run(simulation, simulation.ports()).has_value());
   EXPECT_EQ(record_.views.size(), 2U);
+  EXPECT_EQ(record_.segments.size(), 1U);
   EXPECT_TRUE(record_.interrupted);
+  ASSERT_EQ(record_.steering.size(), 1U);
+  EXPECT_EQ(record_.steering[0].said, "stop");
+  EXPECT_EQ(record_.steering[0].by, "two views");
+  // The arm is home all the same.
+  EXPECT_EQ(record_.motions.back().kind, "home");
+  const auto read = read_record(directory_);
+  ASSERT_TRUE(read.has_value());
+  ASSERT_EQ(read->steering.size(), 1U);
+  EXPECT_EQ(read->steering[0].t_s, record_.steering[0].t_s);
+}
+
+TEST_F(MissionTest, TheNextSegmentCanBeAskedForBeforeTheTimeIsUp) {
+  SteeringPolicy policy("one is enough", [](const SteeringPoint& at) {
+    return at.segment == 0 && at.views == 3 ? SteeringWord::Kind::next_segment
+                                            : SteeringWord::Kind::go_on;
+  });
+  steering_ = &policy;
+  Simulation simulation = simulate();
+  ASSERT_TRUE(run(simulation, simulation.ports()).has_value());
+  ASSERT_EQ(record_.segments.size(), 2U);
+  EXPECT_LT(record_.segments[0].end_s - record_.segments[0].start_s, options_.segment_time_s);
+  EXPECT_NEAR(record_.segments[1].end_s - record_.segments[1].start_s, options_.segment_time_s,
+              1e-9);
+  EXPECT_FALSE(record_.interrupted);
+}
+
+TEST_F(MissionTest, APauseTakesNothingFromARunInSimulatedTime) {
+  Simulation undisturbed = simulate();
+  ASSERT_TRUE(run(undisturbed, undisturbed.ports()).has_value());
+  const RunRecord expected = record_;
+  int asked_while_holding = 0;
+  SteeringPolicy policy("a break", [&](const SteeringPoint& at) {
+    if (at.views != 2 || asked_while_holding == 3) return SteeringWord::Kind::go_on;
+    asked_while_holding += at.holding ? 1 : 0;
+    return SteeringWord::Kind::pause;
+  });
+  steering_ = &policy;
+  Simulation simulation = simulate();
+  ASSERT_TRUE(run(simulation, simulation.ports()).has_value());
+  EXPECT_EQ(asked_while_holding, 3);
+  EXPECT_EQ(record_.end_s, expected.end_s);
+  ASSERT_EQ(record_.views.size(), expected.views.size());
+  EXPECT_EQ(record_.views.back().q, expected.views.back().q);
+  ASSERT_EQ(record_.steering.size(), 2U);  // the pause and its end
+  EXPECT_EQ(record_.steering[1].said, "go_on");
+}
+
+/// Takes so many events, then its disk is full.
+class FullDisk : public Keeper {
+ public:
+  Expected<void> on_event(const Event& event) override {
+    ended = ended || std::holds_alternative<RunEnded>(event);
+    if (left-- > 0) return {};
+    return fail("disk full");
+  }
+  int left = 12;
+  bool ended = false;
+};
+
+TEST_F(MissionTest, AKeeperThatFailsEndsTheRunAndTheOthersKeepAll) {
+  FullDisk disk;
+  other_keepers_ = {&disk};
+  Simulation simulation = simulate();
+  const auto outcome = run(simulation, simulation.ports());
+  ASSERT_FALSE(outcome.has_value());
+  EXPECT_NE(outcome.error().message.find("disk full"), std::string::npos);
+  EXPECT_TRUE(disk.ended);
+  EXPECT_TRUE(record_.interrupted);
+  ASSERT_EQ(record_.faults.size(), 1U);
+  EXPECT_NE(record_.faults[0].message.find("disk full"), std::string::npos);
+  EXPECT_GE(record_.views.size(), 1U);
+  EXPECT_EQ(read_record(directory_)->views.size(), record_.views.size());
+}
+
+/// Refuses the first event.
+class NoRoom : public Keeper {
+ public:
+  Expected<void> on_event(const Event& event) override {
+    faults += std::holds_alternative<Fault>(event) ? 1 : 0;
+    ends += std::holds_alternative<RunEnded>(event) ? 1 : 0;
+    if (std::holds_alternative<RunBegun>(event)) return fail("no room");
+    return {};
+  }
+  int faults = 0;
+  int ends = 0;
+};
+
+TEST_F(MissionTest, AfterAFailureNothingGoesOnAndItEndsOnce) {
+  Simulation simulation = simulate();
+  const RobotKit robot{test::test_robot(), ik_, simulation.judge().checker()};
+  Mission mission(robot, simulation.ports(), options_, Registries::built_in());
+  NoRoom keeper;
+  mission.keep(keeper);
+  const auto first = mission.step();
+  ASSERT_FALSE(first.has_value());
+  EXPECT_EQ(first.error().message, "no room");
+  EXPECT_FALSE(mission.step().has_value());
+  EXPECT_FALSE(mission.state().has_value());
+  EXPECT_TRUE(mission.end().has_value());
+  EXPECT_FALSE(mission.end().has_value());
+  EXPECT_EQ(keeper.faults, 1);
+  EXPECT_EQ(keeper.ends, 1);
+}
+
+TEST_F(MissionTest, AnUnknownPlannerIsAFaultOfTheRecord) {
+  options_.planner = "oracle";
+  Simulation simulation = simulate();
+  const auto outcome = run(simulation, simulation.ports());
+  ASSERT_FALSE(outcome.has_value());
+  EXPECT_NE(outcome.error().message.find("there is: vmp"), std::string::npos);
+  ASSERT_EQ(record_.faults.size(), 1U);
+  EXPECT_TRUE(record_.interrupted);
+}
+
+TEST_F(MissionTest, WhatThrowsEndsTheRunLikeAnyFailure) {
+  SteeringPolicy policy("broken", [](const SteeringPoint& at) -> SteeringWord::Kind {
+    if (at.views == 2) throw std::runtime_error("no such table");
+    return SteeringWord::Kind::go_on;
+  });
+  steering_ = &policy;
+  Simulation simulation = simulate();
+  const auto outcome = run(simulation, simulation.ports());
+  ASSERT_FALSE(outcome.has_value());
+  EXPECT_NE(outcome.error().message.find("no such table"), std::string::npos);
+  EXPECT_EQ(record_.views.size(), 2U);
+}
+
+TEST_F(MissionTest, ADetectorWhoseMaskHasAnotherSizeIsRefused) {
+  class Half : public Detector {
+    Expected<Detection> detect(const RgbdFrame&) const override {
+      return Detection{Image<PixelLabel>(8, 8), Mask(8, 8), Image<float>(8, 8)};
+    }
+  };
+  Registries registries = Registries::built_in();
+  ASSERT_TRUE(registries.detectors
+                  .add("half", "eight by eight",
+                       [](const DetectorOptions&) -> Expected<std::unique_ptr<Detector>> {
+                         return std::make_unique<Half>();
+                       })
+                  .has_value());
+  options_.detector.kind = "half";
+  Simulation simulation = simulate();
+  const RobotKit robot{test::test_robot(), ik_, simulation.judge().checker()};
+  Mission mission(robot, simulation.ports(), options_, registries);
+  const auto outcome = mission.run();
+  ASSERT_FALSE(outcome.has_value());
+  EXPECT_NE(outcome.error().message.find("640 × 480; it is 8 × 8"), std::string::npos)
+      << outcome.error().message;
+}
+
+TEST_F(MissionTest, AnotherReasonToHoldIsSaidToo) {
+  int asked = 0;
+  class Reasons : public Steering {
+   public:
+    explicit Reasons(int& count) : asked_(count) {}
+    SteeringWord ask(const SteeringPoint& at) override {
+      if (at.views != 1 || asked_ == 4) return {};
+      return {SteeringWord::Kind::wait_for_person, "trolley",
+              ++asked_ < 3 ? "push it" : "a little back"};
+    }
+
+   private:
+    int& asked_;
+  } steering(asked);
+  steering_ = &steering;
+  Simulation simulation = simulate();
+  ASSERT_TRUE(run(simulation, simulation.ports()).has_value());
+  ASSERT_EQ(record_.steering.size(), 3U);
+  EXPECT_EQ(record_.steering[0].why, "push it");
+  EXPECT_EQ(record_.steering[1].why, "a little back");
+  EXPECT_EQ(record_.steering[2].said, "go_on");
+}
+
+/// Notes the order of what happens.
+class Diary : public Watcher {
+ public:
+  EventNeeds needs() const override { return {true, true}; }
+  void on_event(const Event& event) override { events.push_back(event); }
+  std::vector<Event> events;
+};
+
+TEST_F(MissionTest, AWatcherSeesEverythingAndChangesNothing) {
+  Simulation alone = simulate();
+  ASSERT_TRUE(run(alone, alone.ports()).has_value());
+  const RunRecord expected = record_;
+  Simulation simulation = simulate();
+  const RobotKit robot{test::test_robot(), ik_, simulation.judge().checker()};
+  Mission mission(robot, simulation.ports(), options_, Registries::built_in());
+  simulation.watch_map(&mission.map());
+  const auto diary = std::make_shared<Diary>();
+  mission.watch(diary, {.name = "diary", .wait_in_simulated_time = true});
+  ASSERT_TRUE(mission.run().has_value());
+  ASSERT_EQ(mission.watched().front().lost, 0);
+
+  ASSERT_FALSE(diary->events.empty());
+  EXPECT_TRUE(std::holds_alternative<RunBegun>(diary->events.front()));
+  EXPECT_TRUE(std::holds_alternative<RunEnded>(diary->events.back()));
+  std::size_t views = 0;
+  for (const Event& event : diary->events) {
+    if (const auto* frame = std::get_if<FrameTaken>(&event)) {
+      ASSERT_LT(views, expected.views.size());
+      EXPECT_EQ(frame->view.q, expected.views[views].q);
+      EXPECT_EQ(frame->frame->time_s, frame->view.t_s);
+      EXPECT_EQ(frame->detection->fruit.width(), frame->frame->depth.width());
+      ++views;
+    }
+    if (const auto* change = std::get_if<MapChanged>(&event)) {
+      ASSERT_NE(change->map, nullptr);
+      EXPECT_EQ(change->map->roi_voxels(), expected.views[views - 1].roi_voxels);
+      EXPECT_FALSE(change->blocks.empty());
+    }
+    if (const auto* plan = std::get_if<Planned>(&event)) {
+      ASSERT_NE(plan->sketch, nullptr);
+      EXPECT_FALSE(plan->sketch->views.empty());
+      EXPECT_GE(plan->waypoints.size(), 2U);
+    }
+  }
+  EXPECT_EQ(views, expected.views.size());
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ TEST(Perception, DetectorsAreScoredAgainstTheRightLabelsNotTheNoisyOnes) {
   }
   MissionOptions options;
   options.detector.kind = "labels";
-  Perception perception(options);
+  Perception perception(options, DetectorRegistry::built_in());
   perception.move_field(Vec3::Zero());
   WorkMeter work;
   StageTimer timer;

@@ -210,36 +210,14 @@ class SyntheticRun {
 
   [[nodiscard]] Summary summary_of(const RunRecord& record,
                                    const std::vector<FruitEstimate>& fruits) const {
-    const RunMetrics m = compute_metrics(record, fruits, truth_);
-    Summary s;
-    s.canopeer_version = record.header.canopeer_version;
-    s.mission = record.header.mission;
-    s.planner = record.header.planner;
-    s.seed = record.header.seed;
-    s.compute_table = record.header.compute_table;
-    s.segments = static_cast<int>(record.segments.size());
-    s.interrupted = record.interrupted;
-    s.sim_time_s = record.end_s;
+    Summary s = canopeer::summary_of(record);
     s.wall_time_s = 148.3;
-    s.views = m.views;
     s.roi_voxels = last_.roi_voxels;
     s.fruits_reported = static_cast<int>(fruits.size());
-    s.joint_path_length_rad = m.joint_path_length_rad;
-    s.motion_time_s = m.motion_time_s;
-    s.planning_time_s = m.planning_time_s;
+    if (options_.truth) {
+      static_cast<RunScores&>(s) = compute_metrics(record, fruits, truth_);
+    }
     s.plant_contacts = 2;
-    if (!options_.truth) return s;
-    s.fruits_total = m.fruits_total;
-    s.detected = m.detected;
-    s.detected_paper = m.detected_paper;
-    s.ma50 = m.ma50;
-    s.false_positives = m.false_positives;
-    s.false_positives_paper = m.false_positives_paper;
-    s.time_to_50pct_s = m.time_to_50pct_s;
-    s.time_to_80pct_s = m.time_to_80pct_s;
-    s.auc = m.auc;
-    s.volume_error_mean = m.volume_error_mean;
-    s.centre_error_mean_m = m.centre_error_mean_m;
     return s;
   }
 

@@ -19,10 +19,9 @@ struct FruitPair {
   double distance_m = 0.0;
 };
 
-/// Which estimates are which counted fruits. Uncounted fruits (green ones) are set aside: the
-/// counted fruits are paired as if the others were not there; then each estimate left over that
-/// pairs with an uncounted fruit by the same rule is `ignored`, neither detected nor a false
-/// positive.
+/// Which estimates are which counted fruits. First the counted fruits are paired, as if the others
+/// (green ones) were not there. Then each estimate left over that pairs with an uncounted fruit by
+/// the same rule is `ignored`: neither detected nor a false positive.
 struct FruitMatching {
   std::vector<FruitPair> pairs;  ///< counted fruits only, by ascending estimate
   int false_positives = 0;       ///< estimates neither paired nor ignored

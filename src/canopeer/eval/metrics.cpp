@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "canopeer/base/check.h"
 #include "canopeer/eval/matching.h"
@@ -139,47 +140,23 @@ std::optional<double> mean_coverage(std::span<const FruitTruth> truth,
   return seen / all;
 }
 
-std::optional<PixelHits> sum_of_pixels(const RunRecord& record) {
-  std::optional<PixelHits> sum;
-  for (const ViewEvent& view : record.views) {
-    if (!view.pixels) continue;
-    if (!sum) sum.emplace();
-    sum->right += view.pixels->right;
-    sum->wrong += view.pixels->wrong;
-    sum->missed += view.pixels->missed;
-  }
-  return sum;
-}
-
-void add_up_motions(const RunRecord& record, RunMetrics& metrics) {
-  for (const MotionEvent& motion : record.motions) {
-    metrics.joint_path_length_rad += motion.joint_path_rad;
-    metrics.motion_time_s += motion.duration_s;
-    metrics.collisions += motion.collision;
-    metrics.plant_contacts += motion.plant_contact;
-  }
-  for (const ViewEvent& view : record.views) metrics.planning_time_s += view.planning_s;
-}
-
 }  // namespace
 
 RunMetrics compute_metrics(const RunRecord& record, std::span<const FruitEstimate> fruits,
                            std::span<const FruitTruth> truth, std::span<const double> coverage) {
   CANOPEER_CHECK(coverage.empty() || coverage.size() == truth.size(), "one share per true fruit");
-  RunMetrics metrics;
-  metrics.fruits_total = static_cast<int>(std::count_if(
+  RunMetrics metrics{summary_of(record), {}};
+  const auto total = static_cast<int>(std::count_if(
       truth.begin(), truth.end(), [](const FruitTruth& fruit) { return fruit.counted; }));
+  metrics.fruits_total = total;
   score_final_fruits(fruits, truth, coverage, metrics);
   score_seen_fruits(fruits, truth, coverage, metrics);
   metrics.roi_surface_coverage = mean_coverage(truth, coverage);
-  metrics.pixels = sum_of_pixels(record);
   metrics.found = found_over_time(record, truth);
-  metrics.time_to_50pct_s = time_to_share(metrics.found, 0.5, metrics.fruits_total);
-  metrics.time_to_80pct_s = time_to_share(metrics.found, 0.8, metrics.fruits_total);
-  metrics.time_to_90pct_s = time_to_share(metrics.found, 0.9, metrics.fruits_total);
-  metrics.auc = mean_detected_share(metrics.found, record.end_s, metrics.fruits_total);
-  metrics.views = static_cast<int>(record.views.size());
-  add_up_motions(record, metrics);
+  metrics.time_to_50pct_s = time_to_share(metrics.found, 0.5, total);
+  metrics.time_to_80pct_s = time_to_share(metrics.found, 0.8, total);
+  metrics.time_to_90pct_s = time_to_share(metrics.found, 0.9, total);
+  metrics.auc = mean_detected_share(metrics.found, record.end_s, total);
   return metrics;
 }
 

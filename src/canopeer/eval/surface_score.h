@@ -18,9 +18,9 @@ struct SurfaceScore {
   double f1 = 0.0;         ///< harmonic mean of the two; 0 when both are 0
 };
 
-/// Points on the bodies of all fruits of `scene` (or of the counted ones only), world: a grid of at
-/// most `spacing_m` on each triangle, so about as dense everywhere as the mesh allows.
-/// Deterministic.
+/// Points on the bodies of all fruits of `scene` (or of the counted ones only), world. Each
+/// triangle gets a grid of at most `spacing_m`, so the points are about as dense everywhere as the
+/// mesh allows. Deterministic.
 [[nodiscard]] std::vector<Eigen::Vector3f> fruit_surface_points(const Scene& scene,
                                                                 bool counted_only,
                                                                 double spacing_m = 0.004);

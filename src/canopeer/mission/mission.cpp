@@ -1,153 +1,329 @@
 #include "canopeer/mission/mission.h"
 
 #include <algorithm>
-#include <cmath>
+#include <chrono>
+#include <exception>
+#include <optional>
+#include <thread>
 #include <utility>
-#include <vector>
 
-#include "canopeer/mission/segment_runner.h"
-#include "canopeer/mission/traveller.h"
+#include "canopeer/base/check.h"
+#include "canopeer/mission/segment/arm_reach.h"
+#include "canopeer/mission/segment/segment_runner.h"
 
 namespace canopeer {
 namespace {
 
-/// No point of the arm is ever farther than this from the origin of its base link, m: the lengths
-/// along the chain added up.
-double reach_m(const RobotModel& robot) {
-  double farthest = 0.0;
-  std::vector<Pose> T_world_link;
-  robot.link_poses(Configuration::Zero(robot.dof()), {}, T_world_link);
-  const int first = robot.moving_links().front();
-  double begin = (T_world_link[static_cast<std::size_t>(first)].translation() -
-                  robot.T_world_base({}).translation())
-                     .norm();
-  if (robot.arm_joint_type(0) == JointType::kPrismatic)
-    begin += std::max(std::abs(robot.limits().lower[0]), std::abs(robot.limits().upper[0]));
-  for (const int link : robot.moving_links()) {
-    double way = begin;
-    for (const RobotModel::Hop& hop : robot.arm_hops(link)) way += hop.offset.norm() + hop.slide;
-    for (const CollisionShape& shape : robot.links()[link].collision) {
-      farthest = std::max(
-          farthest, way + shape.T_link_shape.translation().norm() + shape.half_extents().norm());
-    }
-  }
-  return farthest;
-}
+using Step = MissionCursor::Step;
+using Word = SteeringWord::Kind;
+
+constexpr std::chrono::milliseconds kHold(20);  // between two questions while a mission holds
 
 /// Where the distance field ends nothing is known to be in the way, so it reaches as far as the
 /// arm.
 MissionOptions with_reach_of(const RobotModel& robot, MissionOptions options) {
-  options.field_reach_m = std::max(options.field_reach_m, reach_m(robot));
+  options.field_reach_m = std::max(options.field_reach_m, arm_reach_m(robot));
   return options;
 }
 
 }  // namespace
 
 struct Mission::State {
-  const RobotModel& robot;
-  const ArmIk& ik;
-  const ExactChecker& judge;
+  State(const RobotKit& kit, const Ports& p, const MissionOptions& o, const Registries& r)
+      : robot(kit),
+        ports(p),
+        options(with_reach_of(kit.model, o)),
+        registries(r),
+        perception(options, r.detectors),
+        traveller(kit.model, o.motion, o.seed),
+        camera(kit.model, ports, options, perception) {}
+
+  // What the mission is made of …
+  RobotKit robot;
   Ports ports;
   MissionOptions options;
-  const std::atomic<bool>& stop;
+  Registries registries;
   Perception perception;
   Traveller traveller;
-  RunRecord record;
+  FrameTaker camera;
+  EventHub events;
   StageTimer timer;
-  WorkMeter foreground;
-  WorkMeter background;
-  ProgressSink progress;
+  Steering* steering = nullptr;
+  // … from the first step on …
+  std::unique_ptr<Planner> planner;
+  std::unique_ptr<Timekeeper> time;
+  std::unique_ptr<ArmMover> arm;
+  std::unique_ptr<SegmentRunner> segment;  ///< the last one begun
+  // … and where it is.
+  enum class Phase { fresh, running, failed, ended };
+  Phase phase = Phase::fresh;
+  MissionCursor cursor;
+  SteeringWord said;  ///< last
 
-  [[nodiscard]] Configuration home_of(std::size_t segment) const {
-    return robot.home("side_" + std::to_string(options.segments[segment].side));
+  [[nodiscard]] SegmentTools tools() {
+    return {robot, options, perception, camera, *arm, *time, events, cursor};
   }
-  [[nodiscard]] Expected<void> run_segments(Planner& planner, RecordWriter& writer);
-  [[nodiscard]] Expected<void> drive(std::size_t segment, RecordWriter& writer);
-  [[nodiscard]] std::vector<WorkItem> work_items() const;
+  [[nodiscard]] Configuration home_of(int index) const {
+    const auto& plan = options.segments[static_cast<std::size_t>(index)];
+    return robot.model.home("side_" + std::to_string(plan.side));
+  }
+  [[nodiscard]] int segments() const { return static_cast<int>(options.segments.size()); }
+
+  Expected<void> restore(MissionState state);
+  Expected<void> prepare();
+  Expected<void> take_step();
+  Expected<void> do_step();
+  Expected<void> drive();
+  Expected<void> begin();
+  Expected<void> decide();
+  Expected<void> go_home();
+  Expected<void> listen_to_steering();
+  Expected<void> say(const SteeringWord& word);
+  [[nodiscard]] SteeringPoint steering_point(bool holding) const;
 };
 
-Mission::Mission(const RobotModel& robot, const ArmIk& ik, const ExactChecker& judge,
-                 const Ports& ports, const MissionOptions& options, const std::atomic<bool>& stop)
-    : state_(new State{robot,
-                       ik,
-                       judge,
-                       ports,
-                       options,
-                       stop,
-                       Perception(with_reach_of(robot, options)),
-                       Traveller(robot, options.motion, options.seed),
-                       {},
-                       {},
-                       {},
-                       {},
-                       {}}) {}
-
+Mission::Mission(const RobotKit& robot, const Ports& ports, const MissionOptions& options,
+                 const Registries& registries)
+    : state_(std::make_unique<State>(robot, ports, options, registries)) {}
 Mission::~Mission() = default;
 
-void Mission::on_progress(ProgressSink sink) { state_->progress = std::move(sink); }
-const RunRecord& Mission::record() const { return state_->record; }
+void Mission::keep(Keeper& keeper) {
+  CANOPEER_CHECK(state_->phase == State::Phase::fresh, "keepers join before the first step");
+  state_->events.keep(keeper);
+}
+void Mission::watch(std::shared_ptr<Watcher> watcher, const WatchOptions& options) {
+  CANOPEER_CHECK(state_->phase == State::Phase::fresh, "watchers join before the first step");
+  state_->events.watch(std::move(watcher), options, state_->ports.clock->simulated());
+}
+void Mission::steer(Steering& steering) {
+  CANOPEER_CHECK(state_->steering == nullptr, "one steers; SteeringTogether takes several");
+  state_->steering = &steering;
+}
+const MissionCursor& Mission::cursor() const { return state_->cursor; }
 const VoxelMap& Mission::map() const { return state_->perception.map(); }
 const FruitMap& Mission::fruits() const { return state_->perception.fruits(); }
 const StageTimer& Mission::timer() const { return state_->timer; }
+std::vector<EventHub::Watched> Mission::watched() const { return state_->events.watched(); }
 
-Expected<void> Mission::run(RecordWriter& writer) {
-  auto planner = make_planner(state_->options.planner, state_->options.planners);
-  if (!planner) return fail(planner.error().message);
-  const auto outcome = state_->run_segments(**planner, writer);
-  state_->perception.finish(state_->timer);
-  RunRecord& record = state_->record;
-  record.work = state_->work_items();
-  record.end_s = state_->ports.clock->now_s();
-  record.interrupted = state_->stop || !outcome;
-  if (auto ok = writer.set_work(record.work); !ok) return ok;
-  if (auto ok = writer.finish(record.end_s, record.interrupted); !ok) return ok;
-  return outcome;
+Expected<void> Mission::run() {
+  Expected<bool> more = true;
+  while (more && *more) more = step();
+  const Expected<void> ended = end();
+  if (!more) return tl::unexpected(more.error());
+  return ended;
 }
 
-Expected<void> Mission::State::run_segments(Planner& planner, RecordWriter& writer) {
-  Background aside(planner, *ports.clock, options.background_workers, background);
-  MissionContext context{robot, ik,        judge,  ports,  options, stop,       perception, planner,
-                         aside, traveller, writer, record, timer,   foreground, progress};
-  traveller.forget_way(ports.arm->configuration());
-  for (std::size_t i = 0; i < options.segments.size() && !stop; ++i) {
-    if (auto ok = drive(i, writer); !ok) return ok;
-    SegmentRunner segment(context, static_cast<int>(i));
-    // The arm goes to the next segment's home at once: it is home before the trolley moves.
-    const std::size_t next = std::min(i + 1, options.segments.size() - 1);
-    if (auto ok = segment.run(home_of(next)); !ok) return ok;
+Expected<bool> Mission::step() {
+  State& s = *state_;
+  if (s.phase == State::Phase::failed || s.phase == State::Phase::ended) {
+    return fail("the mission has ended");
   }
+  if (s.cursor.next == Step::done) return false;
+  auto ok = s.take_step();
+  if (ok) return s.cursor.next != Step::done;
+  s.phase = State::Phase::failed;
+  // The keepers' own errors must not hide the first one.
+  static_cast<void>(s.events.emit(Fault{s.ports.clock->now_s(), ok.error().message}));
+  return tl::unexpected(ok.error());
+}
+
+Expected<void> Mission::end() {
+  State& s = *state_;
+  if (s.phase == State::Phase::ended) return fail("the mission has ended");
+  s.phase = State::Phase::ended;
+  const bool interrupted = s.cursor.stopped || s.cursor.next != Step::done;
+  s.segment.reset();
+  s.perception.finish(s.timer);
+  const double end_s = s.ports.clock->now_s();
+  Expected<void> ok;
+  const auto tell = [&](Event event) {
+    if (auto told = s.events.emit(std::move(event)); !told && ok) ok = std::move(told);
+  };
+  tell(FruitsFound{end_s, s.cursor.views - 1, s.perception.fruits().fruits()});
+  if (s.time) tell(WorkDone{s.time->work_items()});
+  tell(RunEnded{end_s, interrupted});
+  s.events.finish();
+  return ok;
+}
+
+/// What needs the planner is made with it: its name may be unknown.
+Expected<void> Mission::State::prepare() {
+  phase = Phase::running;
+  auto made = registries.planners.make(options.planner, options.planners);
+  if (!made) return tl::unexpected(made.error());
+  planner = std::move(*made);
+  time = std::make_unique<Timekeeper>(*ports.clock, options.costs, *planner,
+                                      options.background_workers, timer);
+  arm = std::make_unique<ArmMover>(robot.model, ports, traveller, *time, events, cursor);
+  if (traveller.state().way.empty()) traveller.forget_way(ports.arm->configuration());
   return {};
 }
 
-/// Brings the trolley to the segment's stop.
-Expected<void> Mission::State::drive(std::size_t segment, RecordWriter& writer) {
-  const TrolleyState& goal = options.segments[segment].trolley;
-  const TrolleyState from = ports.trolley->state();
-  if (goal.travel_m == from.travel_m && goal.lift_m == from.lift_m) return {};
-  MotionEvent event;
-  event.kind = "trolley";
-  event.segment = static_cast<int>(segment);
-  event.start_s = ports.clock->now_s();
-  if (auto ok = ports.trolley->move_to(goal); !ok) return fail_in("trolley", ok.error());
-  event.duration_s = ports.clock->now_s() - event.start_s;
-  if (auto ok = writer.add(event); !ok) return ok;
-  record.motions.push_back(event);
-  return {};
-}
-
-std::vector<WorkItem> Mission::State::work_items() const {
-  std::vector<WorkItem> items;
-  for (const auto& [meter, where] :
-       {std::pair{&foreground, ""}, std::pair{&background, " (background)"}}) {
-    for (std::size_t i = 0; i < kWorkKinds; ++i) {
-      const auto kind = static_cast<Work>(i);
-      const std::int64_t units = meter->units(kind);
-      if (units == 0) continue;
-      items.push_back({std::string(work_name(kind)) + where, units,
-                       static_cast<double>(units) * options.costs[kind]});
+/// What comes from outside may throw: that ends the run like any other failure.
+Expected<void> Mission::State::take_step() {
+  try {
+    if (phase == Phase::fresh) {
+      if (auto ok = prepare(); !ok) return ok;
+      if (auto ok = events.emit(
+              RunBegun{time->now_s(), segments(), options.segment_time_s, false, std::nullopt});
+          !ok) {
+        return ok;
+      }
     }
+    return do_step();
+  } catch (const std::exception& error) {
+    return fail(std::string("an exception: ") + error.what());
   }
-  return items;
+}
+
+Expected<void> Mission::State::do_step() {
+  if (auto ok = listen_to_steering(); !ok) return ok;
+  switch (cursor.next) {
+    case Step::drive:
+      return drive();
+    case Step::begin:
+      return begin();
+    case Step::decide:
+      return decide();
+    case Step::go_home:
+      return go_home();
+    case Step::done:
+      break;
+  }
+  return {};
+}
+
+Expected<void> Mission::State::drive() {
+  cursor.next = cursor.stopped ? Step::done : Step::begin;
+  if (cursor.stopped) return {};
+  return arm->drive(options.segments[static_cast<std::size_t>(cursor.segment)].trolley);
+}
+
+Expected<void> Mission::State::begin() {
+  cursor.next = cursor.stopped ? Step::done : Step::decide;
+  if (cursor.stopped) return {};
+  segment.reset();
+  segment = std::make_unique<SegmentRunner>(tools(), cursor.segment);
+  return segment->begin();
+}
+
+Expected<void> Mission::State::decide() {
+  if (!cursor.stopped && !cursor.skip && !segment->time_is_up()) return segment->step();
+  cursor.next = Step::go_home;
+  cursor.skip = false;
+  return segment->end();
+}
+
+/// The arm goes to the next segment's home at once: it is home before the trolley moves.
+Expected<void> Mission::State::go_home() {
+  const int next = std::min(cursor.segment + 1, segments() - 1);
+  if (auto ok = segment->go_home(home_of(next)); !ok) return ok;
+  segment->rest();
+  const bool last = cursor.segment + 1 == segments();
+  cursor.next = last || cursor.stopped ? Step::done : Step::drive;
+  if (cursor.next == Step::drive) ++cursor.segment;
+  return events.emit(WorkDone{time->work_items()});
+}
+
+/// Asks what to do, and holds as long as the answer says so. A hold takes nothing from the segment.
+Expected<void> Mission::State::listen_to_steering() {
+  if (steering == nullptr) return {};
+  const double since_s = ports.clock->now_s();
+  bool held = false;
+  SteeringWord word = steering->ask(steering_point(false));
+  while (true) {
+    if (auto ok = say(word); !ok) return ok;
+    if (word.kind != Word::pause && word.kind != Word::wait_for_person) break;
+    if (!std::exchange(held, true)) time->background().hold();
+    std::this_thread::sleep_for(kHold);
+    word = steering->ask(steering_point(true));
+  }
+  if (held) time->background().resume();
+  cursor.segment_start_s += ports.clock->now_s() - since_s;
+  cursor.standing_since_s += ports.clock->now_s() - since_s;
+  cursor.stopped = cursor.stopped || word.kind == Word::stop;
+  // Who is on the way home goes to the next segment already.
+  cursor.skip = cursor.next != Step::go_home && (cursor.skip || word.kind == Word::next_segment);
+  return {};
+}
+
+/// A word that is new is an event.
+Expected<void> Mission::State::say(const SteeringWord& word) {
+  const bool idle =
+      word.kind == Word::next_segment && (cursor.skip || cursor.next == Step::go_home);
+  const bool same = word.kind == cursor.said &&
+                    (word.kind == Word::go_on || (word.by == said.by && word.why == said.why));
+  // A state keeps the kind only: the first answer after it is not news when that is the same.
+  const bool known = same || (word.kind == cursor.said && said.kind != cursor.said);
+  said = word;
+  cursor.said = word.kind == Word::next_segment ? Word::go_on : word.kind;
+  if (idle || known) return {};
+  return events.emit(Steered{ports.clock->now_s(), cursor.segment, word});
+}
+
+SteeringPoint Mission::State::steering_point(bool holding) const {
+  SteeringPoint point;
+  point.t_s = ports.clock->now_s();
+  point.segment = cursor.segment;
+  point.segment_time_s = point.t_s - cursor.segment_start_s;
+  point.next = step_name(cursor.next);
+  point.views = cursor.views;
+  point.fruits = static_cast<int>(perception.fruits().fruits().size());
+  point.holding = holding;
+  return point;
+}
+
+Expected<MissionState> Mission::state() const {
+  const State& s = *state_;
+  if (s.phase == State::Phase::failed) return fail("a mission that failed cannot go on");
+  if (s.options.background_workers > 0 || !s.ports.clock->simulated()) {
+    return fail("only a mission in simulated time can go on from a state");
+  }
+  MissionState state{s.cursor, {}, s.traveller.state(), s.perception.map(), s.perception.fruits(),
+                     {}};
+  if (s.time) state.meters = s.time->meters();
+  if (s.segment) {
+    auto planner = s.planner->state();
+    if (!planner) return fail_in("planner '" + s.options.planner + "'", planner.error());
+    state.planner = std::move(*planner);
+  }
+  return state;
+}
+
+Expected<void> Mission::check(const MissionState& state) const {
+  const MissionCursor& at = state.cursor;
+  if (at.segment < 0 || at.segment >= state_->segments()) {
+    return fail("the state is of a mission with other segments");
+  }
+  const bool within = at.next == Step::decide || at.next == Step::go_home;
+  if (within && !state.planner) return fail("the state has no planner, in the middle of a segment");
+  return {};
+}
+
+Expected<void> Mission::restore(MissionState state) {
+  State& s = *state_;
+  if (s.phase != State::Phase::fresh) return fail("a mission is restored before its first step");
+  if (auto ok = check(state); !ok) return ok;
+  const auto ok = s.restore(std::move(state));
+  if (!ok) s.phase = State::Phase::failed;
+  return ok;
+}
+
+Expected<void> Mission::State::restore(MissionState state) {
+  cursor = state.cursor;
+  traveller.restore(std::move(state.traveller));
+  perception.restore(std::move(state.map), std::move(state.fruits));
+  if (auto ok = prepare(); !ok) return ok;
+  time->set_meters(state.meters);
+  RunBegun begun{time->now_s(), segments(), options.segment_time_s, true, std::nullopt};
+  if (state.planner) {
+    // Between two segments the planner is still in the last one.
+    const bool between = cursor.next == Step::drive || cursor.next == Step::begin;
+    segment = std::make_unique<SegmentRunner>(tools(), std::max(0, cursor.segment - between));
+    if (auto ok = segment->resume(*state.planner); !ok) return ok;
+    if (!between && cursor.next != Step::done) begun.segment = segment->event();
+  }
+  return events.emit(std::move(begun));
 }
 
 }  // namespace canopeer

@@ -1,54 +1,61 @@
 #pragma once
 
-#include <atomic>
-#include <functional>
 #include <memory>
+#include <vector>
 
+#include "canopeer/mission/events/event_hub.h"
 #include "canopeer/mission/mission_options.h"
-#include "canopeer/mission/perception.h"
+#include "canopeer/mission/mission_state.h"
 #include "canopeer/mission/ports.h"
+#include "canopeer/mission/registries.h"
+#include "canopeer/mission/robot_kit.h"
 #include "canopeer/mission/stage_timer.h"
-#include "canopeer/record/record_file.h"
-#include "canopeer/record/run_record.h"
 
 namespace canopeer {
 
-/// How far a mission is; for progress bars.
-struct MissionProgress {
-  int segment = 0;  ///< 0 …
-  int segments = 1;
-  double time_s = 0.0;    ///< mission time
-  double fraction = 0.0;  ///< of the whole mission, 0 … 1
-  int views = 0;
-  int fruits = 0;
-};
-
-/// Called after every view, from the mission's thread.
-using ProgressSink = std::function<void(const MissionProgress&)>;
-
 /// The whole job: works through the segments one by one. In each it senses, maps, plans and acts
-/// until the time is up
-/// ([Zaenker23], Fig. 2); between them the arm goes home and the trolley drives on. The graph is
-/// made anew per segment, the map is kept. Runs on whatever stands behind the ports.
+/// until the time is up ([Zaenker23], Fig. 2). Between them the arm goes home and the trolley
+/// drives on. The graph is made anew for each segment, the map is kept. Runs on whatever stands
+/// behind the ports. Used from one thread.
 class Mission {
  public:
-  /// `robot`, the ports and `stop` outlive the mission. `stop` set: it ends after the motion under
-  /// way.
-  Mission(const RobotModel& robot, const ArmIk& ik, const ExactChecker& judge, const Ports& ports,
-          const MissionOptions& options, const std::atomic<bool>& stop);
+  /// What `robot` and `ports` point to outlives the mission.
+  Mission(const RobotKit& robot, const Ports& ports, const MissionOptions& options,
+          const Registries& registries);
   ~Mission();
 
-  void on_progress(ProgressSink sink);
+  /// Who listens and who steers: said before the first step. What is referred to outlives the
+  /// mission.
+  void keep(Keeper& keeper);
+  void watch(std::shared_ptr<Watcher> watcher, const WatchOptions& options = {});
+  void steer(Steering& steering);
 
-  /// Runs all segments and writes each event to `writer` as it happens. The error is a port's (the
-  /// arm refuses a motion, the camera gives no frame); what was found until then is kept and can
-  /// still be read.
-  [[nodiscard]] Expected<void> run(RecordWriter& writer);
+  /// All steps, and end(). The error is that of a port (the arm refuses a motion, the camera gives
+  /// no frame), of the detector or of a keeper, or an exception of theirs. What was found until
+  /// then can be read.
+  [[nodiscard]] Expected<void> run();
 
-  [[nodiscard]] const RunRecord& record() const;
+  /// One step; false: it was the last one. For those who stop in between: end() comes when they
+  /// have had enough. After an error only end() may come.
+  [[nodiscard]] Expected<bool> step();
+  /// Once: shapes are fitted anew, the last events are said.
+  [[nodiscard]] Expected<void> end();
+
+  /// Between two steps. The error: time is not simulated, the mission has failed, or its planner
+  /// cannot write its state.
+  [[nodiscard]] Expected<MissionState> state() const;
+  /// Whether a state can be one of this mission; restore() asks too.
+  [[nodiscard]] Expected<void> check(const MissionState& state) const;
+  /// In place of the first step: goes on from there. What stands behind the ports must be as it
+  /// was. After an error only end() may come.
+  [[nodiscard]] Expected<void> restore(MissionState state);
+
+  [[nodiscard]] const MissionCursor& cursor() const;
   [[nodiscard]] const VoxelMap& map() const;
   [[nodiscard]] const FruitMap& fruits() const;
   [[nodiscard]] const StageTimer& timer() const;
+  /// What became of the watchers, after the end.
+  [[nodiscard]] std::vector<EventHub::Watched> watched() const;
 
  private:
   struct State;

@@ -1,5 +1,10 @@
 #include "canopeer/mission/perception.h"
 
+#include <string>
+#include <utility>
+
+#include "canopeer/base/check.h"
+
 namespace canopeer {
 
 namespace {
@@ -21,8 +26,11 @@ std::optional<PixelCounts> score_pixels(const RgbdFrame& frame, const Mask& foun
 
 }  // namespace
 
-Perception::Perception(const MissionOptions& options)
-    : options_(options), map_(options.map), fruits_(options.fruit) {}
+Perception::Perception(const MissionOptions& options, DetectorRegistry detectors)
+    : options_(options),
+      detectors_(std::move(detectors)),
+      map_(options.map),
+      fruits_(options.fruit) {}
 
 void Perception::move_field(const Vec3& base_world, const Box& known_free_world) {
   DistanceFieldOptions around;
@@ -35,8 +43,58 @@ void Perception::move_field(const Vec3& base_world, const Box& known_free_world)
   field_->rebuild(map_);
 }
 
-// The map changes in observe() only, so an index of the same region has missed nothing.
-FrontierTargets Perception::targets(const Box& region_world, const std::vector<BlockKey>& changed) {
+Expected<Observation> Perception::observe(const RgbdFrame& frame, const Box& region_world,
+                                          WorkMeter& work, StageTimer& timer) {
+  auto detection = timer.time("detect", [&] { return detect(frame); });
+  if (!detection) return tl::unexpected(detection.error());
+  Observation seen;
+  seen.detection = std::move(*detection);
+  const Mask& fruit = seen.detection.fruit;
+  seen.pixels = score_pixels(frame, fruit);
+  seen.fused = timer.time("fuse", [&] { return fuse(frame, fruit); });
+  const std::vector<BlockKey>& changed = seen.fused.changed;
+  timer.time("distance field", [&] { update_distances(changed); });
+  seen.change.targets =
+      timer.time("targets", [&] { return update_targets(region_world, changed); });
+  seen.change.blocks = changed;
+  timer.time("fruit map", [&] { update_fruits(frame, fruit); });
+  work.add(Work::detect_frame);
+  work.add(Work::fuse_point, seen.fused.fused_points);
+  work.add(Work::field_block, static_cast<std::int64_t>(changed.size()));
+  work.add(Work::target_block, static_cast<std::int64_t>(map_.block_keys(region_world).size()));
+  return seen;
+}
+
+Expected<Detection> Perception::detect(const RgbdFrame& frame) {
+  if (!detector_) {
+    auto detector = detectors_.make(options_.detector);
+    if (!detector) return fail_in("detector", detector.error());
+    detector_ = std::move(*detector);
+  }
+  auto detection = detector_->detect(frame);
+  if (!detection) return fail_in("detector", detection.error());
+  if (detection->fruit.width() != frame.depth.width() ||
+      detection->fruit.height() != frame.depth.height()) {
+    return fail("detector: its mask must have the size of the depth image, " +
+                std::to_string(frame.depth.width()) + " × " + std::to_string(frame.depth.height()) +
+                "; it is " + std::to_string(detection->fruit.width()) + " × " +
+                std::to_string(detection->fruit.height()));
+  }
+  return detection;
+}
+
+FuseResult Perception::fuse(const RgbdFrame& frame, const Mask& fruit) {
+  return canopeer::fuse(map_, frame, fruit, options_.fusion);
+}
+
+void Perception::update_distances(const std::vector<BlockKey>& changed) {
+  CANOPEER_CHECK(field_.has_value(), "move_field() comes first");
+  field_->update(map_, changed);
+}
+
+// The map changes in fuse() only, so an index of the same region has missed nothing.
+FrontierTargets Perception::update_targets(const Box& region_world,
+                                           const std::vector<BlockKey>& changed) {
   const bool kept = frontiers_ && frontiers_->world().min() == region_world.min() &&
                     frontiers_->world().max() == region_world.max();
   if (kept) {
@@ -47,33 +105,16 @@ FrontierTargets Perception::targets(const Box& region_world, const std::vector<B
   return frontiers_->targets();
 }
 
-Expected<Observation> Perception::observe(const RgbdFrame& frame, const Box& region_world,
-                                          WorkMeter& work, StageTimer& timer) {
-  if (!detector_) {
-    auto detector = make_detector(options_.detector);
-    if (!detector) return fail_in("detector", detector.error());
-    detector_ = std::move(*detector);
-  }
-  const auto found = timer.time("detect", [&] { return detector_->detect(frame); });
-  if (!found) return fail_in("detector", found.error());
-  const Detection& detection = *found;
-  Observation seen;
-  seen.pixels = score_pixels(frame, detection.fruit);
-  seen.fused =
-      timer.time("fuse", [&] { return fuse(map_, frame, detection.fruit, options_.fusion); });
-  timer.time("distance field", [&] { field_->update(map_, seen.fused.changed); });
-  seen.change.targets =
-      timer.time("targets", [&] { return targets(region_world, seen.fused.changed); });
-  seen.change.blocks = seen.fused.changed;
-  timer.time("fruit map", [&] {
-    fruits_.add(frame, detection.fruit);
-    fruits_.update();
-  });
-  work.add(Work::detect_frame);
-  work.add(Work::fuse_point, seen.fused.fused_points);
-  work.add(Work::field_block, static_cast<std::int64_t>(seen.fused.changed.size()));
-  work.add(Work::target_block, static_cast<std::int64_t>(map_.block_keys(region_world).size()));
-  return seen;
+void Perception::update_fruits(const RgbdFrame& frame, const Mask& fruit) {
+  fruits_.add(frame, fruit);
+  fruits_.update();
+}
+
+void Perception::restore(VoxelMap map, FruitMap fruits) {
+  map_ = std::move(map);
+  fruits_ = std::move(fruits);
+  field_.reset();
+  frontiers_.reset();
 }
 
 }  // namespace canopeer

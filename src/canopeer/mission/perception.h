@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "canopeer/base/compute_cost.h"
-#include "canopeer/detect/detector.h"
+#include "canopeer/detect/detector_registry.h"
 #include "canopeer/detect/pixel_score.h"
 #include "canopeer/fruit/fruit_map.h"
 #include "canopeer/map/distance_field.h"
@@ -18,6 +18,7 @@ namespace canopeer {
 
 /// What one frame taught.
 struct Observation {
+  Detection detection;
   FuseResult fused;
   std::optional<PixelCounts>
       pixels;  ///< fruit pixels found against the frame's labels, if it has any
@@ -25,20 +26,30 @@ struct Observation {
 };
 
 /// From a frame to all that is known: fruit pixels, voxel map, distance field, frontiers, fruit
-/// map.
+/// map. observe() takes the five steps; each can be taken alone, in this order for every frame.
 class Perception {
  public:
-  explicit Perception(const MissionOptions& options);
+  Perception(const MissionOptions& options, DetectorRegistry detectors);
 
   /// The robot stands somewhere new: distances are wanted around its base from now on. Where
   /// unknown space blocks, `known_free_world` is free before anything was seen of it.
   void move_field(const Vec3& base_world, const Box& known_free_world = Box());
 
-  /// Detects, fuses, and brings the targets inside `region_world` up to date. The fruit map, which
-  /// nobody plans with, is brought up to date aside: its work is not counted. The error is the
-  /// detector's, which is made with the first frame.
-  Expected<Observation> observe(const RgbdFrame& frame, const Box& region_world, WorkMeter& work,
-                                StageTimer& timer);
+  /// All five steps. The fruit map, which nobody plans with, is brought up to date aside: its work
+  /// is not counted. The error is the detector's.
+  [[nodiscard]] Expected<Observation> observe(const RgbdFrame& frame, const Box& region_world,
+                                              WorkMeter& work, StageTimer& timer);
+
+  /// 1. Which pixels show fruit. The detector is made with the first frame.
+  [[nodiscard]] Expected<Detection> detect(const RgbdFrame& frame);
+  /// 2. What the frame says of free and occupied space and of regions of interest.
+  FuseResult fuse(const RgbdFrame& frame, const Mask& fruit);
+  /// 3. Distances to what is occupied, where blocks have changed.
+  void update_distances(const std::vector<BlockKey>& changed);
+  /// 4. All targets inside the region. `changed`: all blocks since the last call.
+  FrontierTargets update_targets(const Box& region_world, const std::vector<BlockKey>& changed);
+  /// 5. Fruits and their shapes.
+  void update_fruits(const RgbdFrame& frame, const Mask& fruit);
 
   /// The run is over: fruits whose refinement was put off get it, all shapes are fitted once more.
   void finish(StageTimer& timer) {
@@ -46,13 +57,16 @@ class Perception {
   }
 
   [[nodiscard]] const VoxelMap& map() const { return map_; }
+  /// After move_field().
   [[nodiscard]] const DistanceField& field() const { return *field_; }
   [[nodiscard]] const FruitMap& fruits() const { return fruits_; }
 
- private:
-  FrontierTargets targets(const Box& region_world, const std::vector<BlockKey>& changed);
+  /// Goes on from what was known then; call move_field() after it.
+  void restore(VoxelMap map, FruitMap fruits);
 
+ private:
   MissionOptions options_;
+  DetectorRegistry detectors_;
   std::unique_ptr<Detector> detector_;  // null before the first frame
   VoxelMap map_;
   std::optional<DistanceField> field_;

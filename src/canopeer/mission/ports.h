@@ -22,6 +22,8 @@ class Clock {
   virtual void charge(double compute_s) = 0;
   /// Lets so many seconds pass.
   virtual void sleep(double seconds) = 0;
+  /// It moves on by these calls and by motions only, so that one may wait as long as one likes.
+  [[nodiscard]] virtual bool simulated() const { return false; }
 };
 
 /// How a motion of the arm ended.

@@ -174,6 +174,26 @@ MotionEvent to_motion(const Json& json) {
   return motion;
 }
 
+Json from(const SteeringEvent& steering) {
+  return {{"t_s", steering.t_s},
+          {"segment", steering.segment},
+          {"said", steering.said},
+          {"by", steering.by},
+          {"why", steering.why}};
+}
+
+SteeringEvent to_steering(const Json& json) {
+  return {to_number(json.at("t_s")), json.at("segment").get<int>(),
+          json.at("said").get<std::string>(), json.at("by").get<std::string>(),
+          json.at("why").get<std::string>()};
+}
+
+Json from(const FaultEvent& fault) { return {{"t_s", fault.t_s}, {"message", fault.message}}; }
+
+FaultEvent to_fault(const Json& json) {
+  return {to_number(json.at("t_s")), json.at("message").get<std::string>()};
+}
+
 Json from(const std::vector<WorkItem>& work) {
   Json items = Json::array();
   for (const WorkItem& item : work) {

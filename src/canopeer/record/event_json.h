@@ -20,12 +20,16 @@ Json from(const RunHeader& header);
 Json from(const SegmentEvent& segment);
 Json from(const ViewEvent& view);
 Json from(const MotionEvent& motion);
+Json from(const SteeringEvent& steering);
+Json from(const FaultEvent& fault);
 Json from(const std::vector<WorkItem>& work);
 
 RunHeader to_header(const Json& json);
 SegmentEvent to_segment(const Json& json);
 ViewEvent to_view(const Json& json);
 MotionEvent to_motion(const Json& json);
+SteeringEvent to_steering(const Json& json);
+FaultEvent to_fault(const Json& json);
 std::vector<WorkItem> to_work(const Json& json);
 
 /// null stands for a number that was not finite.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <vector>
@@ -20,6 +21,10 @@ class RecordWriter {
   /// Makes the directory when it is missing and starts the record, replacing an older one.
   [[nodiscard]] static Expected<RecordWriter> create(const std::filesystem::path& run_dir,
                                                      const RunHeader& header);
+  /// Goes on with the record that is there, from `bytes` on, the end of a line: what stands behind
+  /// them goes. The error says that the record is shorter than that, or cannot be written.
+  [[nodiscard]] static Expected<RecordWriter> resume(const std::filesystem::path& run_dir,
+                                                     std::uint64_t bytes);
   RecordWriter(RecordWriter&& other) noexcept;
   RecordWriter& operator=(RecordWriter&& other) noexcept;
   ~RecordWriter();
@@ -29,11 +34,15 @@ class RecordWriter {
   [[nodiscard]] Expected<void> end_segment(int segment, double end_s);
   [[nodiscard]] Expected<void> add(const ViewEvent& view);
   [[nodiscard]] Expected<void> add(const MotionEvent& motion);
-  /// Sums from the start of the run; a later call replaces an earlier one. Call it after each
-  /// segment, so that an interrupted run has them too.
+  [[nodiscard]] Expected<void> add(const SteeringEvent& steering);
+  [[nodiscard]] Expected<void> add(const FaultEvent& fault);
+  /// Sums from the start of the run; a later call replaces an earlier one.
   [[nodiscard]] Expected<void> set_work(const std::vector<WorkItem>& work);
   /// The last line. A record without it reads as interrupted.
   [[nodiscard]] Expected<void> finish(double end_s, bool interrupted);
+
+  /// Written so far.
+  [[nodiscard]] std::uint64_t bytes() const;
 
  private:
   struct File;
@@ -46,5 +55,9 @@ class RecordWriter {
 /// as interrupted, `end_s` is the time of the last event, and so is the open segment's.
 /// Unknown events and keys are skipped; another format version is an error.
 [[nodiscard]] Expected<RunRecord> read_record(const std::filesystem::path& path);
+
+/// The same of its first `bytes` bytes, which end with a line; the error says that they do not.
+[[nodiscard]] Expected<RunRecord> read_record_until(const std::filesystem::path& path,
+                                                    std::uint64_t bytes);
 
 }  // namespace canopeer

@@ -29,6 +29,8 @@ class RecordReader {
     if (kind == "segment_end") end_segment(body);
     if (kind == "view") add(event_json::to_view(body));
     if (kind == "motion") add(event_json::to_motion(body));
+    if (kind == "steering") record_.steering.push_back(event_json::to_steering(body));
+    if (kind == "fault") record_.faults.push_back(event_json::to_fault(body));
     if (kind == "work") record_.work = event_json::to_work(body);
     if (kind == "end") end(body);
   }
@@ -115,14 +117,16 @@ Expected<void> read_line(std::string_view text, bool first, RecordReader& reader
 
 }  // namespace
 
-Expected<RunRecord> read_record(const std::filesystem::path& path) {
+namespace {
+
+std::filesystem::path file_of(const std::filesystem::path& path) {
   std::error_code code;
-  const std::filesystem::path file =
-      std::filesystem::is_directory(path, code) ? path / "record" : path;
-  const Expected<std::string> content = read_file(file);
-  if (!content) return fail(content.error().message);
+  return std::filesystem::is_directory(path, code) ? path / "record" : path;
+}
+
+/// `file` is for messages.
+Expected<RunRecord> parse_record(const std::string& file, std::string_view rest) {
   RecordReader reader;
-  std::string_view rest = *content;
   int number = 1;
   for (; !rest.empty(); ++number) {
     const std::size_t end = rest.find('\n');
@@ -130,12 +134,36 @@ Expected<RunRecord> read_record(const std::filesystem::path& path) {
     const Expected<void> read = read_line(rest.substr(0, end), number == 1, reader);
     // Half a line at the end is where a killed run stopped writing.
     if (!read && (whole || number == 1)) {
-      return fail_in(file.string() + ":" + std::to_string(number), read.error());
+      return fail_in(file + ":" + std::to_string(number), read.error());
     }
     rest.remove_prefix(whole ? end + 1 : rest.size());
   }
-  if (number == 1) return fail(file.string() + ": empty, expected a run record");
+  if (number == 1) return fail(file + ": empty, expected a run record");
   return reader.take();
+}
+
+}  // namespace
+
+Expected<RunRecord> read_record(const std::filesystem::path& path) {
+  const std::filesystem::path file = file_of(path);
+  const Expected<std::string> content = read_file(file);
+  if (!content) return tl::unexpected(content.error());
+  return parse_record(file.string(), *content);
+}
+
+Expected<RunRecord> read_record_until(const std::filesystem::path& path, std::uint64_t bytes) {
+  const std::filesystem::path file = file_of(path);
+  const Expected<std::string> content = read_file(file);
+  if (!content) return tl::unexpected(content.error());
+  if (content->size() < bytes) {
+    return fail(file.string() + ": has " + std::to_string(content->size()) +
+                " bytes; the run that is to go on had written " + std::to_string(bytes));
+  }
+  if (bytes == 0 || (*content)[bytes - 1] != '\n') {
+    return fail(file.string() + ": is of another run: no line ends at byte " +
+                std::to_string(bytes));
+  }
+  return parse_record(file.string(), std::string_view(*content).substr(0, bytes));
 }
 
 }  // namespace canopeer

@@ -14,12 +14,19 @@ using event_json::Json;
 struct RecordWriter::File {
   std::filesystem::path path;
   std::ofstream out;
+  std::uint64_t bytes = 0;
 
   Expected<void> line(const Json& json) {
     // A name that is not UTF-8 must not cost the run its record.
-    out << json.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+    const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
+    errno = 0;
+    out << text;
     out.flush();
-    if (!out) return fail(path.string() + ": cannot write: " + std::strerror(errno));
+    if (!out) {
+      return fail(path.string() + ": cannot write: " +
+                  (errno != 0 ? std::strerror(errno) : "a write before failed"));
+    }
+    bytes += text.size();
     return {};
   }
 };
@@ -44,6 +51,27 @@ Expected<RecordWriter> RecordWriter::create(const std::filesystem::path& run_dir
   return RecordWriter(std::move(file));
 }
 
+Expected<RecordWriter> RecordWriter::resume(const std::filesystem::path& run_dir,
+                                            std::uint64_t bytes) {
+  auto file = std::make_unique<File>();
+  file->path = run_dir / "record";
+  file->bytes = bytes;
+  std::error_code code;
+  const auto there = std::filesystem::file_size(file->path, code);
+  if (code) return fail(file->path.string() + ": cannot read: " + code.message());
+  if (there < bytes) {
+    return fail(file->path.string() + ": has " + std::to_string(there) +
+                " bytes, the state to go on from was written after " + std::to_string(bytes));
+  }
+  std::filesystem::resize_file(file->path, bytes, code);
+  if (code) return fail(file->path.string() + ": cannot write: " + code.message());
+  file->out.open(file->path, std::ios::binary | std::ios::app);
+  if (!file->out) return fail(file->path.string() + ": cannot write: " + std::strerror(errno));
+  return RecordWriter(std::move(file));
+}
+
+std::uint64_t RecordWriter::bytes() const { return file_->bytes; }
+
 Expected<void> RecordWriter::begin_segment(const SegmentEvent& segment) {
   return file_->line({{"segment_begin", event_json::from(segment)}});
 }
@@ -58,6 +86,14 @@ Expected<void> RecordWriter::add(const ViewEvent& view) {
 
 Expected<void> RecordWriter::add(const MotionEvent& motion) {
   return file_->line({{"motion", event_json::from(motion)}});
+}
+
+Expected<void> RecordWriter::add(const SteeringEvent& steering) {
+  return file_->line({{"steering", event_json::from(steering)}});
+}
+
+Expected<void> RecordWriter::add(const FaultEvent& fault) {
+  return file_->line({{"fault", event_json::from(fault)}});
 }
 
 Expected<void> RecordWriter::set_work(const std::vector<WorkItem>& work) {

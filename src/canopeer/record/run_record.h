@@ -98,12 +98,29 @@ struct WorkItem {
   double seconds = 0.0;
 };
 
+/// What somebody told the mission to do.
+struct SteeringEvent {
+  double t_s = 0.0;
+  int segment = 0;
+  std::string said;  ///< "pause", "go_on", "next_segment", "wait_for_person", "stop"
+  std::string by;    ///< who, e.g. "signal"
+  std::string why;   ///< may be empty
+};
+
+/// Why a run ended early.
+struct FaultEvent {
+  double t_s = 0.0;
+  std::string message;
+};
+
 /// A whole run in memory: what `record` holds on disk.
 struct RunRecord {
   RunHeader header;
   std::vector<SegmentEvent> segments;
   std::vector<ViewEvent> views;
   std::vector<MotionEvent> motions;
+  std::vector<SteeringEvent> steering;
+  std::vector<FaultEvent> faults;
   std::vector<WorkItem> work;
   double end_s = 0.0;
   bool interrupted = false;

@@ -84,6 +84,57 @@ void read_into(const Json& json, const char* key, std::optional<T>& value) {
 
 }  // namespace
 
+namespace {
+
+/// Of all frames together; none: no frame had labels.
+void score_pixels(const RunRecord& record, RunScores& scores) {
+  std::optional<PixelHits> sum;
+  for (const ViewEvent& view : record.views) {
+    if (!view.pixels) continue;
+    if (!sum) sum.emplace();
+    sum->right += view.pixels->right;
+    sum->wrong += view.pixels->wrong;
+    sum->missed += view.pixels->missed;
+  }
+  if (!sum) return;
+  scores.pixel_precision = sum->precision();
+  scores.pixel_recall = sum->recall();
+  scores.pixel_iou = sum->iou();
+}
+
+void add_up_motions(const RunRecord& record, RunScores& scores) {
+  for (const MotionEvent& motion : record.motions) {
+    scores.joint_path_length_rad += motion.joint_path_rad;
+    scores.motion_time_s += motion.duration_s;
+    scores.collisions += motion.collision;
+    scores.plant_contacts += motion.plant_contact;
+  }
+  for (const ViewEvent& view : record.views) scores.planning_time_s += view.planning_s;
+}
+
+}  // namespace
+
+Summary summary_of(const RunRecord& record) {
+  const RunHeader& header = record.header;
+  Summary s;
+  s.canopeer_version = header.canopeer_version;
+  s.mission = header.mission;
+  s.planner = header.planner;
+  s.seed = header.seed;
+  s.compute_table = header.compute_table;
+  s.segments = static_cast<int>(record.segments.size());
+  s.interrupted = record.interrupted;
+  s.sim_time_s = record.end_s;
+  s.views = static_cast<int>(record.views.size());
+  if (!record.views.empty()) {
+    s.roi_voxels = record.views.back().roi_voxels;
+    s.fruits_reported = static_cast<int>(record.views.back().fruits.size());
+  }
+  score_pixels(record, s);
+  add_up_motions(record, s);
+  return s;
+}
+
 std::string summary_json(const Summary& summary) {
   Json json = Json::object();
   for_each_field(summary, [&](const char* key, const auto& value) { json[key] = json_of(value); });

@@ -6,13 +6,57 @@
 #include <string>
 
 #include "canopeer/base/expected.h"
+#include "canopeer/record/run_record.h"
 
 namespace canopeer {
 
-/// The figures of one run, as `summary.json` holds them, in this order. A figure nobody measured is
-/// null there, never invented: all that need ground truth are null when there is none. Everything
-/// except `wall_time_s` depends only on mission, options and seed.
-struct Summary {
+/// How good a run was. A figure nobody measured is null, never invented: all that need ground truth
+/// are null when there is none. Errors are means of distances, not of squares; shares are within
+/// 0 … 1.
+struct RunScores {
+  std::optional<int> fruits_total;           ///< counted fruits of the ground truth
+  std::optional<int> detected;               ///< optimal one-to-one, centres within 0.05 m
+  std::optional<int> detected_paper;         ///< greedy closest-first one-to-one, within 0.20 m
+  std::optional<int> ma50;                   ///< paper pairs with 1 − |V − V*| / V* > 0.5
+  std::optional<int> false_positives;        ///< of `detected`
+  std::optional<int> false_positives_paper;  ///< of `detected_paper`
+  // Mission time of the first frame after which `detected` is at least that share of
+  // fruits_total; null: never.
+  std::optional<double> time_to_50pct_s;
+  std::optional<double> time_to_80pct_s;
+  std::optional<double> time_to_90pct_s;
+  /// Mean of detected / fruits_total over the mission time; 0 without fruits.
+  std::optional<double> auc;
+  std::optional<double> roi_surface_coverage;  ///< share of the counted fruits' surface seen
+  std::optional<double> surface_precision;     ///< of fruits.ply against the true fruits, 0.015 m
+  std::optional<double> surface_recall;
+  std::optional<double> surface_f1;
+  std::optional<double> volume_error_mean;    ///< |V − V*| / V* over the `detected` pairs
+  std::optional<double> centre_error_mean_m;  ///< over the `detected` pairs
+  // Of the `detected` fruits half of whose true surface was seen.
+  std::optional<int> fruits_half_seen;
+  std::optional<double> volume_error_half_seen;
+  std::optional<double> centre_error_half_seen_m;
+  // Counted fruits 30 % of whose true surface was seen, those `detected` among them, and F1:
+  // 2 found / (found + such fruits + false_positives). A fruit found though less of it was seen is
+  // neither right nor wrong; F1 is null when there is neither such a fruit nor a false one.
+  std::optional<int> fruits_seen_30pct;
+  std::optional<int> detected_seen_30pct;
+  std::optional<double> f1_seen_30pct;
+  std::optional<double> pixel_precision;  ///< of the detector, over all frames with labels
+  std::optional<double> pixel_recall;
+  std::optional<double> pixel_iou;
+
+  double joint_path_length_rad = 0.0;  ///< Σ|Δq| of all motions
+  double motion_time_s = 0.0;          ///< of all motions, transitions included
+  double planning_time_s = 0.0;        ///< standing still before views
+  int collisions = 0;                  ///< motions with one
+  int plant_contacts = 0;              ///< motions that touched a plant not yet seen
+};
+
+/// The figures of one run, as `summary.json` holds them, its scores behind the rest. All but
+/// `wall_time_s` depend only on mission, options and seed.
+struct Summary : RunScores {
   std::string canopeer_version;
   std::string mission;
   std::string planner;
@@ -25,39 +69,10 @@ struct Summary {
   int views = 0;
   std::int64_t roi_voxels = 0;  ///< distinct ROI voxels in the map at the end
   int fruits_reported = 0;      ///< rows of fruits.csv
-
-  std::optional<int> fruits_total;           ///< counted fruits of the ground truth
-  std::optional<int> detected;               ///< optimal one-to-one, centres within 0.05 m
-  std::optional<int> detected_paper;         ///< greedy closest-first one-to-one, within 0.20 m
-  std::optional<int> ma50;                   ///< paper pairs with volume accuracy > 0.5
-  std::optional<int> false_positives;        ///< of `detected`
-  std::optional<int> false_positives_paper;  ///< of `detected_paper`
-  std::optional<double> time_to_50pct_s;     ///< null: never reached
-  std::optional<double> time_to_80pct_s;
-  std::optional<double> time_to_90pct_s;
-  std::optional<double> auc;  ///< mean of detected / fruits_total over the mission time
-  std::optional<double> roi_surface_coverage;
-  std::optional<double> surface_precision;  ///< of fruits.ply against the true fruits, 0.015 m
-  std::optional<double> surface_recall;
-  std::optional<double> surface_f1;
-  std::optional<double> volume_error_mean;
-  std::optional<double> centre_error_mean_m;
-  std::optional<int> fruits_half_seen;  ///< `detected` ones half of whose true surface was seen
-  std::optional<double> volume_error_half_seen;
-  std::optional<double> centre_error_half_seen_m;
-  std::optional<int> fruits_seen_30pct;    ///< counted ones 30 % of whose true surface was seen
-  std::optional<int> detected_seen_30pct;  ///< of these
-  std::optional<double> f1_seen_30pct;
-  std::optional<double> pixel_precision;  ///< of the detector, over all frames with labels
-  std::optional<double> pixel_recall;
-  std::optional<double> pixel_iou;
-
-  double joint_path_length_rad = 0.0;
-  double motion_time_s = 0.0;
-  double planning_time_s = 0.0;
-  int collisions = 0;
-  int plant_contacts = 0;
 };
+
+/// What the record alone tells: all but the scores against the truth, and the wall time.
+[[nodiscard]] Summary summary_of(const RunRecord& record);
 
 /// Indented JSON with a newline at the end; the same summary gives the same bytes.
 [[nodiscard]] std::string summary_json(const Summary& summary);

@@ -19,9 +19,9 @@ struct GalleryFruit {
   std::string verdict;  ///< in words; empty: not scored
 };
 
-/// A sheet of fruits in the given order, each seen along x (y to the right) and along y (x to the
-/// right), z up, all at one scale: points in their colours, the fitted shape's outline, and the
-/// true fruit's where it is known. `stand_alone`: as a file of its own.
+/// A sheet of fruits in the given order. Each is seen along x (y to the right) and along y (x to
+/// the right), z up, all at one scale. It shows the points in their colours, the fitted shape's
+/// outline, and the true fruit's where it is known. `stand_alone`: as a file of its own.
 [[nodiscard]] std::string fruit_gallery_svg(const std::vector<GalleryFruit>& fruits, int width_px,
                                             bool stand_alone);
 

@@ -17,10 +17,10 @@ struct FruitMapInput {
 };
 
 /// Front view of each plant row (y to the right, z up) and the view from above (y to the right, x
-/// down), one below the other at one scale. Fruits in their size: true ones as rings (dashed: not
-/// found), reported ones filled, coloured by what they turned out to be. `width_px` is what it is
-/// meant to be shown at; a row too long for it makes the map wider. A stand-alone one brings its
-/// own style and background and can be a file.
+/// down), one below the other at one scale. Fruits have their size. True ones are rings (dashed:
+/// not found); reported ones are filled, coloured by what they turned out to be. `width_px` is what
+/// it is meant to be shown at; a row too long for it makes the map wider. A stand-alone one brings
+/// its own style and background and can be a file.
 [[nodiscard]] std::string fruit_map_svg(const FruitMapInput& input, int width_px, bool stand_alone);
 
 }  // namespace canopeer

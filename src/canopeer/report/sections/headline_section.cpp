@@ -38,6 +38,20 @@ std::string begun_of_planned(const ReportData& data) {
                           : fmt::format("{} of {} segments", begun, planned);
 }
 
+/// Why the run ended early, and what it was told to do; empty for most.
+std::string interventions(const RunRecord& record) {
+  std::string items;
+  for (const SteeringEvent& e : record.steering) {
+    items += fmt::format("<li>{}: {}, said {}{}</li>\n", duration_text(e.t_s), escape_html(e.said),
+                         e.by.empty() ? "by nobody named" : "by " + escape_html(e.by),
+                         e.why.empty() ? "" : ": " + escape_html(e.why));
+  }
+  for (const FaultEvent& e : record.faults) {
+    items += fmt::format("<li>{}: failed: {}</li>\n", duration_text(e.t_s), escape_html(e.message));
+  }
+  return items.empty() ? items : "<ul class=\"notice\">\n" + items + "</ul>\n";
+}
+
 }  // namespace
 
 std::string headline_section(const ReportData& data) {
@@ -53,6 +67,7 @@ std::string headline_section(const ReportData& data) {
         "earned until then is below.</p>\n",
         duration_text(s.sim_time_s), begun_of_planned(data));
   }
+  html += interventions(data.files.record);
   html += "<div class=\"cards\">\n" + fruit_cards(s);
   html += card(duration_text(s.sim_time_s), "mission time, " + begun_of_planned(data));
   html += card(std::to_string(s.views), "views");

@@ -32,19 +32,24 @@ class Background {
   /// … until now: what the planner was told of the segment is about to go.
   void rest() { static_cast<void>(stop_tasks()); }
 
+  /// The mission holds: no task is under way until resume(). The time that passes meanwhile is not
+  /// told.
+  void hold() { quiet_before_hold_ = stop_tasks(); }
+  void resume();
+
   /// So much mission time goes by: a motion, computing, waiting. On the wall clock the time that
   /// really went by is what the planner is told.
   void time_passes(double seconds);
 
-  /// Calls `f`, which may use the planner; workers go on with the tasks they have.
+  /// Calls `f(planner)`; workers go on with the tasks they have.
   template <typename F>
   decltype(auto) beside(F&& f) {
     const std::lock_guard<std::mutex> lock(planner_mutex_);
-    return std::forward<F>(f)();
+    return std::forward<F>(f)(planner_);
   }
 
-  /// Calls `f`, which may change what tasks read beside their snapshot (the segment); no task is
-  /// under way meanwhile.
+  /// Calls `f(planner)`, which may change what tasks read beside their snapshot (the segment); no
+  /// task is under way meanwhile.
   template <typename F>
   decltype(auto) alone(F&& f) {
     const Quiet quiet(*this);
@@ -71,6 +76,7 @@ class Background {
   const Clock& clock_;
   WorkMeter& work_;
   double told_s_ = 0.0;
+  bool quiet_before_hold_ = true;
   std::mutex planner_mutex_;
   std::mutex state_mutex_;  // of what follows
   std::condition_variable_any changed_;

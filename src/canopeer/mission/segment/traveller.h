@@ -2,11 +2,11 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "canopeer/base/compute_cost.h"
 #include "canopeer/mission/ports.h"
-#include "canopeer/record/run_record.h"
 #include "canopeer/robot/collision_checker.h"
 #include "canopeer/robot/motion_planner.h"
 
@@ -31,11 +31,22 @@ class Traveller {
   /// The arm is home: the way back starts anew.
   void forget_way(const Configuration& q);
 
+  /// What later calls depend on.
+  struct State {
+    std::uint64_t plans = 0;         ///< each draws from a stream of its own
+    std::vector<Configuration> way;  ///< since home, in order
+    template <typename Archive>
+    void serialize(Archive& archive) {
+      archive(plans, way);
+    }
+  };
+  [[nodiscard]] const State& state() const { return state_; }
+  void restore(State state) { state_ = std::move(state); }
+
  private:
   MotionPlanner planner_;
   std::uint64_t seed_;
-  std::uint64_t plans_ = 0;
-  std::vector<Configuration> way_;  // since home, in order
+  State state_;
 };
 
 }  // namespace canopeer

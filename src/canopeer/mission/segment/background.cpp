@@ -1,4 +1,4 @@
-#include "canopeer/mission/background.h"
+#include "canopeer/mission/segment/background.h"
 
 #include <chrono>
 #include <memory>
@@ -18,13 +18,18 @@ Background::~Background() {
   changed_.notify_all();
 }
 
+void Background::resume() {
+  told_s_ = clock_.now_s();
+  set_quiet(quiet_before_hold_);
+}
+
 void Background::time_passes(double seconds) {
   if (workers_.empty()) {
     planner_.grow(seconds, work_);
     return;
   }
   const double now_s = clock_.now_s();
-  beside([&] { planner_.time_passes(now_s - told_s_); });
+  beside([&](Planner& planner) { planner.time_passes(now_s - told_s_); });
   told_s_ = now_s;
 }
 
@@ -62,10 +67,10 @@ void Background::work_until_told(const std::stop_token& stop) {
 }
 
 bool Background::make_one_task() {
-  const auto task = beside([this] { return planner_.next_task(); });
+  const auto task = beside([](Planner& planner) { return planner.next_task(); });
   if (!task) return false;
   task->run();
-  beside([&] { planner_.finish_task(*task, work_); });
+  beside([&](Planner& planner) { planner.finish_task(*task, work_); });
   return true;
 }
 

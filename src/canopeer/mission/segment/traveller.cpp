@@ -1,4 +1,4 @@
-#include "canopeer/mission/traveller.h"
+#include "canopeer/mission/segment/traveller.h"
 
 #include <algorithm>
 
@@ -15,24 +15,24 @@ std::vector<Configuration> Traveller::way_home(const Configuration& q, const Con
   constexpr double kThere = 1e-9;
   std::vector<Configuration> back = {q};
   if (joint_distance(q, home) < kThere) return back;
-  for (auto step = way_.rbegin();; ++step) {
+  for (auto step = state_.way.rbegin();; ++step) {
     MotionPlanStats stats;
-    const auto plan =
-        planner_.plan(back.back(), home, checker, Rng(seed_, "way home", plans_++).bits(), &stats);
+    const auto plan = planner_.plan(back.back(), home, checker,
+                                    Rng(seed_, "way home", state_.plans++).bits(), &stats);
     work.add(Work::motion_plan, stats.states_checked);
     if (plan) {
       back.insert(back.end(), plan->begin() + 1, plan->end());
       return back;
     }
-    if (step == way_.rend()) return back;
+    if (step == state_.way.rend()) return back;
     if (joint_distance(*step, back.back()) > kThere) back.push_back(*step);
   }
 }
 
 void Traveller::took(const std::vector<Configuration>& waypoints) {
-  way_.insert(way_.end(), waypoints.begin(), waypoints.end());
+  state_.way.insert(state_.way.end(), waypoints.begin(), waypoints.end());
 }
 
-void Traveller::forget_way(const Configuration& q) { way_ = {q}; }
+void Traveller::forget_way(const Configuration& q) { state_.way = {q}; }
 
 }  // namespace canopeer

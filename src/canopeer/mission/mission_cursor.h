@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "canopeer/mission/steering.h"
+
+namespace canopeer {
+
+/// Where a mission is between two steps. Times are mission time, s.
+struct MissionCursor {
+  enum class Step : std::uint8_t {
+    drive,    ///< the trolley to the segment's stop
+    begin,    ///< the segment: first frame, at home
+    decide,   ///< one decision of the planner and what it leads to
+    go_home,  ///< the arm, to the next segment's home state
+    done
+  };
+  Step next = Step::drive;
+  std::int32_t segment = 0;  ///< 0 …
+  std::int32_t views = 0;    ///< taken since the run began
+  double segment_start_s = 0.0;
+  double standing_since_s = 0.0;
+  double last_standing_s = 0.0;  ///< before the last motion
+  double last_motion_s = 0.0;
+  bool skip = false;     ///< told to end this segment
+  bool stopped = false;  ///< told to end the run; who goes on from here ends it too
+  SteeringWord::Kind said = SteeringWord::Kind::go_on;  ///< last
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(next, segment, views, segment_start_s, standing_since_s, last_standing_s, last_motion_s,
+            skip, stopped, said);
+  }
+};
+
+[[nodiscard]] constexpr std::string_view step_name(MissionCursor::Step step) {
+  constexpr std::string_view kNames[] = {"drive", "begin", "decide", "go_home", "done"};
+  return kNames[static_cast<int>(step)];
+}
+
+}  // namespace canopeer

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "canopeer/mission/events/event_hub.h"
+#include "canopeer/mission/mission_cursor.h"
+#include "canopeer/mission/segment/timekeeper.h"
+#include "canopeer/mission/segment/traveller.h"
+
+namespace canopeer {
+
+/// Moves the arm and the trolley, and says so. While the arm moves the planner's background work
+/// goes on.
+class ArmMover {
+ public:
+  /// All outlive it; `cursor` is told how long the arm stood and moved.
+  ArmMover(const RobotModel& robot, const Ports& ports, Traveller& traveller, Timekeeper& time,
+           EventHub& events, MissionCursor& cursor);
+
+  [[nodiscard]] Configuration where() const { return ports_.arm->configuration(); }
+
+  /// Along the waypoints, the first of which is where the arm is. It stops where it must only:
+  /// corners are rounded as far as `checker` allows. `kind`: "view" or "home".
+  [[nodiscard]] Expected<void> move(const std::string& kind,
+                                    const std::vector<Configuration>& waypoints,
+                                    const CollisionChecker& checker);
+  /// To `home`; the error says that no way was found.
+  [[nodiscard]] Expected<void> go_home(const Configuration& home, const CollisionChecker& checker);
+  /// The trolley, with the arm at home; nothing happens when it is there.
+  [[nodiscard]] Expected<void> drive(const TrolleyState& goal);
+
+ private:
+  [[nodiscard]] JointPath without_needless_stops(const std::vector<Configuration>& waypoints,
+                                                 const CollisionChecker& checker);
+
+  const RobotModel& robot_;
+  Ports ports_;
+  Traveller& traveller_;
+  Timekeeper& time_;
+  EventHub& events_;
+  MissionCursor& cursor_;
+};
+
+}  // namespace canopeer

@@ -1,0 +1,214 @@
+#include "canopeer/mission/segment/segment_runner.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace canopeer {
+namespace {
+
+constexpr double kWaitStep = 0.05;  // s between two questions to a planner that waits
+constexpr double kAtHome = 0.1;     // rad, Σ|Δq|: more than an arm misses its goal by
+
+SegmentFrame segment_frame(const RobotModel& robot, const SegmentPlan& plan, int index) {
+  SegmentFrame frame;
+  frame.index = index;
+  frame.trolley = plan.trolley;
+  frame.T_world_base = robot.T_world_base(plan.trolley);
+  frame.workspace_base = robot.workspace(plan.side);
+  frame.sampling_region_world = transformed(robot.sampling_region(plan.side), frame.T_world_base);
+  frame.home = robot.home("side_" + std::to_string(plan.side));
+  return frame;
+}
+
+}  // namespace
+
+SegmentRunner::SegmentRunner(const SegmentTools& tools, int index)
+    : tools_(tools),
+      index_(index),
+      frame_(segment_frame(tools.robot.model,
+                           tools.options.segments[static_cast<std::size_t>(index)], index)),
+      checker_(tools.robot.model, frame_.trolley, tools.options.collision) {
+  const Box& known_free = tools_.robot.model.setup().known_free;
+  tools_.time.background().alone([&](Planner&) {
+    tools_.perception.move_field(
+        frame_.T_world_base.translation(),
+        known_free.isEmpty() ? known_free : transformed(known_free, frame_.T_world_base));
+    checker_.set_map(&tools_.perception.field());
+  });
+}
+
+Expected<void> SegmentRunner::begin() {
+  MissionCursor& cursor = tools_.cursor;
+  cursor.segment_start_s = cursor.standing_since_s = tools_.time.now_s();
+  cursor.last_standing_s = cursor.last_motion_s = 0.0;
+  if (auto ok = tools_.events.emit(SegmentBegun{event()}); !ok) return ok;
+
+  const PlanningScene scene = planning_scene();
+  tools_.time.background().alone([&](Planner& planner) { planner.begin_segment(scene); });
+  tools_.time.background().go();
+  return observe(TargetKind::none, std::nullopt);
+}
+
+SegmentEvent SegmentRunner::event() const {
+  SegmentEvent segment;
+  segment.segment = index_;
+  segment.name = tools_.options.segments[static_cast<std::size_t>(index_)].name;
+  segment.start_s = tools_.cursor.segment_start_s;
+  segment.sampling_region_world = frame_.sampling_region_world;
+  segment.workspace_world = transformed(frame_.workspace_base, frame_.T_world_base);
+  return segment;
+}
+
+Expected<void> SegmentRunner::resume(std::string_view planner_state) {
+  const PlanningScene scene = planning_scene();
+  auto restored = tools_.time.background().alone(
+      [&](Planner& planner) { return planner.restore(scene, planner_state); });
+  if (!restored) return fail_in("planner", restored.error());
+  tools_.time.background().go();
+  return {};
+}
+
+PlanningScene SegmentRunner::planning_scene() const {
+  PlanningScene scene;
+  scene.robot = &tools_.robot.model;
+  scene.ik = &tools_.robot.ik;
+  scene.map = &tools_.perception.map();
+  scene.checker = &checker_;
+  scene.judge = &tools_.robot.judge;
+  scene.costs = &tools_.options.costs;
+  scene.snapshot = snapshot();
+  scene.segment = frame_;
+  scene.seed = tools_.options.seed;
+  return scene;
+}
+
+bool SegmentRunner::time_is_up() const {
+  return tools_.time.now_s() - tools_.cursor.segment_start_s >= tools_.options.segment_time_s;
+}
+
+Expected<void> SegmentRunner::step() {
+  const Decision decision = decide();
+  switch (decision.action) {
+    case Decision::Action::move:
+      return take(decision.motion);
+    case Decision::Action::wait:
+      tools_.time.pass(kWaitStep);
+      return {};
+    case Decision::Action::stuck:
+      return recover();
+  }
+  return {};
+}
+
+Expected<void> SegmentRunner::end() {
+  const double latest_s = tools_.cursor.segment_start_s + tools_.options.segment_time_s;
+  return tools_.events.emit(SegmentEnded{index_, std::min(tools_.time.now_s(), latest_s)});
+}
+
+Expected<void> SegmentRunner::go_home(const Configuration& home) {
+  return tools_.arm.go_home(home, checker_);
+}
+
+/// What tasks in other threads may read while the next frame is fused.
+std::shared_ptr<const MapSnapshot> SegmentRunner::snapshot() const {
+  if (!tools_.time.background().has_workers()) return nullptr;
+  return std::make_shared<const MapSnapshot>(tools_.perception.map(), tools_.perception.field(),
+                                             checker_);
+}
+
+/// A frame from where the arm stands: fused, told to everybody and to the planner, paid for.
+Expected<void> SegmentRunner::observe(TargetKind kind, std::optional<std::int64_t> predicted) {
+  WorkMeter work;
+  auto look = tools_.camera.look(frame_.sampling_region_world, work, tools_.time.timer());
+  if (!look) return tl::unexpected(look.error());
+  if (auto ok = tell(*look, view_event(*look, kind, predicted)); !ok) return ok;
+  MapChange& change = look->seen.change;
+  change.snapshot = snapshot();
+  tools_.time.timer().time("planner: new map", [&] {
+    tools_.time.background().beside(
+        [&](Planner& planner) { planner.map_changed(std::move(change)); });
+  });
+  tools_.time.pay(work);
+  return {};
+}
+
+ViewEvent SegmentRunner::view_event(const Look& look, TargetKind kind,
+                                    std::optional<std::int64_t> predicted) {
+  const Configuration q = tools_.arm.where();
+  ViewEvent view;
+  view.segment = index_;
+  view.view = tools_.cursor.views++;
+  view.t_s = look.frame->time_s;
+  view.planning_s = tools_.cursor.last_standing_s;
+  view.motion_s = tools_.cursor.last_motion_s;
+  view.q.assign(q.data(), q.data() + q.size());
+  view.T_world_camera = look.frame->T_world_camera;
+  view.target_kind = target_kind_name(kind);
+  if (predicted) view.predicted_gain = static_cast<double>(*predicted);
+  view.realised_gain = look.seen.fused.newly_known;
+  view.fused_points = look.seen.fused.fused_points;
+  if (const auto& pixels = look.seen.pixels) {
+    view.pixels =
+        PixelHits{pixels->true_positives, pixels->false_positives, pixels->false_negatives};
+  }
+  view.roi_voxels = tools_.perception.map().roi_voxels();
+  const PlannerStatus status =
+      tools_.time.background().beside([](Planner& planner) { return planner.status(); });
+  view.graph_nodes = status.graph_nodes;
+  view.graph_edges = status.graph_edges;
+  for (const auto& fruit : tools_.perception.fruits().fruits()) {
+    view.fruits.push_back({fruit.id, fruit.centre, fruit.volume_cm3, fruit.confidence});
+  }
+  return view;
+}
+
+Expected<void> SegmentRunner::tell(const Look& look, ViewEvent view) {
+  const double t_s = view.t_s;
+  const int number = view.view;
+  EventHub& events = tools_.events;
+  if (auto ok = events.emit(FrameTaken{std::move(view), look.frame, look.detection}); !ok) {
+    return ok;
+  }
+  MapChanged change{t_s, number, look.seen.change.blocks, nullptr, nullptr};
+  if (events.needs().map) {
+    change.targets = std::make_shared<const FrontierTargets>(look.seen.change.targets);
+    change.map = std::make_shared<const VoxelMap>(tools_.perception.map());
+  }
+  if (auto ok = events.emit(std::move(change)); !ok) return ok;
+  return events.emit(FruitsFound{t_s, number, tools_.perception.fruits().fruits()});
+}
+
+Decision SegmentRunner::decide() {
+  WorkMeter work;
+  Decision decision = tools_.time.timer().time("planner: search", [&] {
+    return tools_.time.background().beside(
+        [&](Planner& planner) { return planner.decide(tools_.arm.where(), work); });
+  });
+  tools_.time.pay(work);
+  return decision;
+}
+
+Expected<void> SegmentRunner::take(const ViewMotion& motion) {
+  Planned planned{
+      tools_.time.now_s(),   index_, motion.waypoints, motion.T_world_camera, motion.kind,
+      motion.predicted_gain, nullptr};
+  if (tools_.events.needs().plan) {
+    planned.sketch = std::make_shared<const PlanSketch>(
+        tools_.time.background().beside([](Planner& planner) { return planner.sketch(); }));
+  }
+  if (auto ok = tools_.events.emit(std::move(planned)); !ok) return ok;
+  if (auto ok = tools_.arm.move("view", motion.waypoints, checker_); !ok) return ok;
+  return observe(motion.kind, motion.predicted_gain);
+}
+
+/// The planner knows no way on. At another place it may: home is one that can always be reached.
+Expected<void> SegmentRunner::recover() {
+  if (joint_distance(tools_.arm.where(), frame_.home) < kAtHome) {
+    tools_.time.pass(1.0);
+    return {};
+  }
+  if (auto ok = go_home(frame_.home); !ok) return ok;
+  return observe(TargetKind::none, std::nullopt);
+}
+
+}  // namespace canopeer

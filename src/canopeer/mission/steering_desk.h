@@ -1,0 +1,51 @@
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "canopeer/mission/steering.h"
+
+namespace canopeer {
+
+/// Takes words from other threads: a page, a service, a keyboard. `pause` and `wait_for_person`
+/// hold until `go_on` or another of them comes, `stop` stays. `next_segment` is handed over once,
+/// after a hold if there is one. Thread-safe.
+class SteeringDesk : public Steering {
+ public:
+  void say(SteeringWord word);
+  [[nodiscard]] SteeringWord ask(const SteeringPoint& point) override;
+
+ private:
+  std::mutex mutex_;
+  SteeringWord word_;  // all but next_segment
+  std::optional<SteeringWord> next_segment_;
+};
+
+/// A rule in place of a person, e.g. "stop after 100 views": what `rule` answers.
+class SteeringPolicy : public Steering {
+ public:
+  using Rule = std::function<SteeringWord::Kind(const SteeringPoint&)>;
+  SteeringPolicy(std::string name, Rule rule);
+  [[nodiscard]] SteeringWord ask(const SteeringPoint& point) override;
+
+ private:
+  std::string name_;
+  Rule rule_;
+};
+
+/// Several at once; the word that stops most counts: stop, wait_for_person, pause, next_segment,
+/// go_on. Among equals the first. A next_segment said during another's hold counts after it.
+class SteeringTogether : public Steering {
+ public:
+  /// `steering` outlives it.
+  void add(Steering& steering) { all_.push_back(&steering); }
+  [[nodiscard]] SteeringWord ask(const SteeringPoint& point) override;
+
+ private:
+  std::vector<Steering*> all_;
+  std::optional<SteeringWord> next_segment_;  // said during a hold
+};
+
+}  // namespace canopeer
