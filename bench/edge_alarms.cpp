@@ -7,14 +7,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <optional>
 
-#include "canopeer/config/mission_file.h"
-#include "canopeer/config/robot_file.h"
-#include "canopeer/import/world_source.h"
-#include "canopeer/mission/mission.h"
 #include "canopeer/robot/exact_checker.h"
-#include "canopeer/sim/simulation.h"
-#include "must.h"
+#include "canopeer/run/run.h"
+#include "support/must.h"
 
 namespace canopeer {
 namespace {
@@ -44,9 +41,11 @@ struct Counts {
 
 class Audit {
  public:
-  Audit(const RobotModel& robot, Simulation& simulation, int one_in)
-      : exact_(robot), trolley_(*simulation.ports().trolley), one_in_(one_in) {}
-  void watch(const VoxelMap& map) { map_ = &map; }
+  Audit(Stage& stage, const VoxelMap& map, int one_in)
+      : exact_(stage.robot().model),
+        trolley_(*stage.site().ports().trolley),
+        one_in_(one_in),
+        map_(map) {}
 
   void edge(const Configuration& a, const Configuration& b, bool free) {
     const TrolleyState at = trolley_.state();
@@ -77,7 +76,7 @@ class Audit {
                                 const TrolleyState& at) const {
     const int steps = 1 + static_cast<int>((b - a).lpNorm<1>() / kJudgeStep);
     for (int i = 0; i <= steps; ++i) {
-      if (exact_.check(a + static_cast<double>(i) / steps * (b - a), at, map_).any()) return false;
+      if (exact_.check(a + static_cast<double>(i) / steps * (b - a), at, &map_).any()) return false;
     }
     return true;
   }
@@ -85,7 +84,7 @@ class Audit {
   ExactChecker exact_;
   const Trolley& trolley_;
   int one_in_;
-  const VoxelMap* map_ = nullptr;
+  const VoxelMap& map_;
   Counts all_;
   std::map<std::string, Counts> by_stop_;
 };
@@ -95,37 +94,27 @@ class Audit {
 
 int main(int argc, char** argv) {
   using namespace canopeer;
-  MissionFile file =
-      must(load_mission(argc > 1 ? argv[1] : CANOPEER_SOURCE_DIR "/missions/scenario_1.yaml",
-                        {{"time_per_segment_s", argc > 2 ? argv[2] : "10"}},
-                        {CANOPEER_SOURCE_DIR "/compute_tables"}));
-  const RobotModel robot = must(load_robot(file.robot, file.T_frame_camera));
-  const ArmIk ik = must(ArmIk::make(robot));
-  const ImportedScene world = must(build_world(file.world, file.mission.seed));
-  const SegmentPlan& first = file.mission.segments.front();
-  Simulation simulation(robot, world.scene, robot.home("side_" + std::to_string(first.side)),
-                        first.trolley, file.simulation);
-  Audit audit(robot, simulation, argc > 3 ? std::max(1, std::atoi(argv[3])) : 10);
+  StageRequest request;
+  request.mission = argc > 1 ? argv[1] : CANOPEER_SOURCE_DIR "/missions/scenario_1.yaml";
+  request.overrides = {{"time_per_segment_s", argc > 2 ? argv[2] : "10"}};
+  request.table_dirs = {CANOPEER_SOURCE_DIR "/compute_tables"};
+  MissionFile file = must(load_mission(request.mission, request.overrides, request.table_dirs));
+  std::optional<Audit> audit;
   file.mission.planners.vmp.builder.on_edge = [&](const Configuration& a, const Configuration& b,
-                                                  bool free) { audit.edge(a, b, free); };
-  const std::atomic<bool> stop{false};
-  Mission mission(robot, ik, simulation.judge().checker(), simulation.ports(), file.mission, stop);
-  simulation.watch_map(&mission.map());
-  audit.watch(mission.map());
-  mission.on_progress([&](const MissionProgress& progress) {
-    std::fprintf(stderr, "\rsegment %d of %d, %.0f s, %d views ", progress.segment + 1,
-                 progress.segments, progress.time_s, progress.views);
-  });
+                                                  bool free) { audit->edge(a, b, free); };
+  const RunRegistries registries = RunRegistries::built_in();
   const auto out = std::filesystem::temp_directory_path() / "canopeer_edge_alarms";
-  std::filesystem::remove_all(out);
-  RecordWriter writer = must(RecordWriter::create(out, {}));
-  const auto ran = mission.run(writer);
-  std::filesystem::remove_all(out);
-  std::fprintf(stderr, "\n");
-  if (!ran) {
-    std::fprintf(stderr, "%s\n", ran.error().message.c_str());
-    return 2;
+  const auto run = must(Run::compose(std::move(file), request, registries, out));
+  audit.emplace(run->stage(), run->mission().map(),
+                argc > 3 ? std::max(1, std::atoi(argv[3])) : 10);
+  must(run->begin());
+  while (run->step()) {
+    const MissionCursor& at = run->mission().cursor();
+    std::fprintf(stderr, "\rsegment %d, %d views ", at.segment + 1, at.views);
   }
-  audit.print();
-  return audit.trustworthy() ? 0 : 1;
+  std::fprintf(stderr, "\n");
+  std::filesystem::remove_all(out);
+  must(Expected<void>(run->outcome()));
+  audit->print();
+  return audit->trustworthy() ? 0 : 1;
 }

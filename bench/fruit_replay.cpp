@@ -20,7 +20,7 @@
 #include "canopeer/record/record_file.h"
 #include "canopeer/render/rgbd_sensor.h"
 #include "false_spots.h"
-#include "must.h"
+#include "support/must.h"
 
 namespace canopeer {
 namespace {
@@ -107,7 +107,7 @@ class Replay {
     RgbdSensorOptions perfect;
     perfect.intrinsics = options.intrinsics;
     const RgbdSensor true_sensor(renderer, world_.scene, perfect);
-    const auto detector = must(make_detector(file_.mission.detector));
+    const auto detector = must(DetectorRegistry::built_in().make(file_.mission.detector));
     FruitMap map(file_.mission.fruit);
     FruitMap seen;  // by a perfect camera and detector: what there was to see
     const FalseSpots spots(world_.scene, options.seed);

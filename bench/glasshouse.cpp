@@ -2,33 +2,12 @@
 
 #include "canopeer/config/robot_file.h"
 #include "canopeer/render/renderer.h"
-#include "canopeer/scene/worlds.h"
-#include "must.h"
+#include "support/must.h"
 
 namespace canopeer {
-namespace {
-
-SegmentFrame frame_at_stop_1(const RobotModel& robot) {
-  SegmentFrame frame;
-  frame.trolley.travel_m = 1.0;
-  frame.T_world_base = robot.T_world_base(frame.trolley);
-  frame.workspace_base = robot.workspace(1);
-  frame.sampling_region_world = transformed(robot.sampling_region(1), frame.T_world_base);
-  frame.home = robot.home("side_1");
-  return frame;
-}
-
-}  // namespace
 
 Glasshouse::Glasshouse(const std::string& robot_yaml, int views)
-    : robot(must(load_robot(robot_yaml))),
-      ik(must(ArmIk::make(robot))),
-      perception(mission),
-      frame(frame_at_stop_1(robot)),
-      checker(robot, frame.trolley) {
-  perception.move_field(frame.T_world_base.translation());
-  checker.set_map(&perception.field());
-  const Scene scene = make_world(scenario_1_world(), 1);
+    : FirstStop(must(load_robot(robot_yaml))) {
   const Renderer renderer(scene);
   Pose T_world_camera = frame.T_world_base * robot.T_base_camera(frame.home);
   for (int view = 0; view < views; ++view) {
@@ -38,10 +17,7 @@ Glasshouse::Glasshouse(const std::string& robot_yaml, int views)
     RenderedView rendered = renderer.render(seen.intrinsics, seen.T_world_camera);
     seen.depth = std::move(rendered.depth);
     seen.color = std::move(rendered.color);
-    WorkMeter work;
-    StageTimer timer;
-    targets =
-        perception.observe(seen, frame.sampling_region_world, work, timer).value().change.targets;
+    targets = see(seen).change.targets;
     const auto next = draw_views(64, 100 + static_cast<std::uint64_t>(view));
     if (!next.empty()) T_world_camera = next.front().T_world_camera;
   }

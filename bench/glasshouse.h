@@ -1,30 +1,20 @@
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "canopeer/mission/perception.h"
-#include "canopeer/robot/collision_checker.h"
-#include "canopeer/robot/view_ik.h"
-#include "canopeer/scene/scene.h"
 #include "canopeer/viewgraph/view_graph.h"
 #include "canopeer/viewgraph/view_sampler.h"
+#include "support/first_stop.h"
 
 namespace canopeer {
 
-// A robot at stop 1, side 1 of Scenario 1 (seed 1) after `views` frames, the first at home, the
-// others at valid view poses: what planning works with.
-class Glasshouse {
+// A robot at its first stop after `views` frames, the first at home, the others at valid view
+// poses: what planning works with.
+class Glasshouse : public test::FirstStop {
  public:
   explicit Glasshouse(const std::string& robot_yaml, int views = 5);
 
-  RobotModel robot;
-  ArmIk ik;
-  MissionOptions mission;
-  Perception perception;
-  SegmentFrame frame;
-  CollisionChecker checker;
   FrontierTargets targets;
 
   /// Valid view poses drawn as the planner does.

@@ -12,22 +12,10 @@
 #include "canopeer/map/fusion.h"
 #include "canopeer/map/map_snapshots.h"
 #include "map_world.h"
+#include "octomap_oracle.h"
 
 namespace canopeer {
 namespace {
-
-octomap::Pointcloud cloud_of(const RgbdFrame& frame) {
-  octomap::Pointcloud cloud;
-  for (int v = 0; v < kCamera.height; ++v) {
-    for (int u = 0; u < kCamera.width; ++u) {
-      const double depth = static_cast<double>(frame.depth.at(u, v));
-      if (std::isfinite(depth)) {
-        cloud.push_back(point(frame.T_world_camera * (depth * kCamera.ray(u, v))));
-      }
-    }
-  }
-  return cloud;
-}
 
 double thread_cpu_ms() {
   timespec now;
@@ -181,7 +169,7 @@ BENCHMARK(row_50m)->Unit(benchmark::kMillisecond)->Iterations(1)->Repetitions(1)
 
 void octomap_fuse_at(benchmark::State& state, double resolution_m) {
   octomap::OcTree tree(resolution_m);
-  const octomap::Pointcloud cloud = cloud_of(views()[0].frame);
+  const octomap::Pointcloud cloud = octomap_cloud(views()[0].frame);
   for (auto _ : state) {
     tree.insertPointCloud(cloud, point(views()[0].frame.T_world_camera.translation()), 3.0);
   }

@@ -33,13 +33,7 @@ class Segment {
     const Ports ports = world.simulation.ports();
     static_cast<void>(ports.arm->start({{ports.arm->configuration(), q}}).value());
     static_cast<void>(ports.arm->finish().value());
-    WorkMeter work;
-    StageTimer timer;
-    targets_ = world.perception
-                   .observe(ports.camera->capture().value(), world.frame.sampling_region_world,
-                            work, timer)
-                   .value()
-                   .change.targets;
+    targets_ = world.look().change.targets;
   }
   [[nodiscard]] const FrontierTargets& targets() const { return targets_; }
   [[nodiscard]] const VoxelMap& map() const { return world.perception.map(); }

@@ -10,8 +10,8 @@
 #include "canopeer/eval/matching.h"
 #include "canopeer/record/record_file.h"
 #include "canopeer/render/rgbd_sensor.h"
-#include "must.h"
 #include "published_surface.h"
+#include "support/must.h"
 
 namespace canopeer {
 namespace {
@@ -32,7 +32,7 @@ void count(const std::string& mission, Overrides settings, const std::string& ru
   options.intrinsics = file.simulation.camera;
   options.seed = file.mission.seed;
   const RgbdSensor sensor(renderer, world.scene, options);
-  const auto detector = must(make_detector(file.mission.detector));
+  const auto detector = must(DetectorRegistry::built_in().make(file.mission.detector));
 
   std::vector<Count> counts;
   counts.push_back({PublishedSurface({.drop_outliers = false}), true});

@@ -46,10 +46,11 @@ CampaignPlan plan_of(const BenchArguments& a) {
 }
 
 /// Every mission with every planner must load, before hours are spent on the others.
-void check_inputs(const CampaignPlan& plan) {
+void check_inputs(const CampaignPlan& plan, const RunRegistries& registries) {
   for (const auto& job : all_jobs(plan)) {
     if (job.seed != plan.first_seed) break;
     MissionArguments mission;
+    mission.registries = &registries;
     mission.path = job.mission.string();
     mission.settings = plan.settings;
     Overrides extra = {{"planner", job.contestant.planner}};
@@ -124,7 +125,7 @@ void print_comparison(const Comparison& comparison, const fs::path& out) {
 
 void bench(const BenchArguments& arguments) {
   const CampaignPlan plan = plan_of(arguments);
-  check_inputs(plan);
+  check_inputs(plan, *arguments.registries);
   const fs::path out = arguments.out;
   std::error_code code;
   fs::create_directories(out, code);

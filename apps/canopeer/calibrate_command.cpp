@@ -6,12 +6,11 @@
 
 #include "canopeer/base/atomic_file.h"
 #include "canopeer/config/cost_table_file.h"
-#include "canopeer/config/robot_file.h"
 #include "canopeer/sim/calibration.h"
 #include "commands.h"
 #include "exit_status.h"
+#include "import_line.h"
 #include "mission_arguments.h"
-#include "world_builder.h"
 
 namespace canopeer::app {
 namespace {
@@ -35,18 +34,22 @@ void calibrate(const CalibrateArguments& arguments) {
   const std::filesystem::path out = file_to_write(arguments.out, data);
   MissionArguments mission = arguments.mission;
   if (mission.path.empty()) mission.path = (data / "missions" / "smoke.yaml").string();
-  const MissionFile file = load(mission);
-  const RobotModel robot = value_or_stop(load_robot(file.robot, file.T_frame_camera), kBadInput);
-  const ArmIk ik = value_or_stop(ArmIk::make(robot), kBadInput);
-  value_or_stop(make_detector(file.mission.detector), kBadInput);
-  const ImportedScene world = build_world_or_stop(file.world, file.mission.seed, arguments.quiet);
-  const CostTable costs = measure_costs(
-      robot, ik, world.scene, file.mission, file.simulation, [&](std::string_view what) {
-        if (!arguments.quiet) {
-          std::printf("measuring %.*s\n", static_cast<int>(what.size()), what.data());
-          std::fflush(stdout);
-        }
-      });
+  ImportLine line(arguments.quiet);
+  StageRequest request = stage_request(mission);
+  request.callbacks = callbacks_for_people(line, arguments.quiet);
+  const auto stage = value_or_stop(Stage::make(request, *mission.registries), kBadInput);
+  const MissionFile& file = stage->file();
+  const RobotKit robot = stage->robot();
+  const auto detector =
+      value_or_stop(mission.registries->detectors.make(file.mission.detector), kBadInput);
+  const CostTable costs =
+      measure_costs(robot.model, robot.ik, *stage->site().truth(), file.mission, *detector,
+                    file.simulation, [&](std::string_view what) {
+                      if (!arguments.quiet) {
+                        std::printf("measuring %.*s\n", static_cast<int>(what.size()), what.data());
+                        std::fflush(stdout);
+                      }
+                    });
   const std::time_t now = std::time(nullptr);
   char day[16];
   std::strftime(day, sizeof day, "%Y-%m-%d", std::gmtime(&now));

@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "canopeer/import/world_import.h"
+#include "canopeer/run/run_registries.h"
 
 namespace canopeer::app {
 
 /// What several commands take to name a mission and change its settings.
 struct MissionArguments {
+  const RunRegistries* registries = nullptr;  ///< what it may name
   std::string path;
   std::vector<std::string> settings;  ///< "dotted.key=value"
   std::optional<std::uint64_t> seed;
@@ -22,6 +24,7 @@ struct RunArguments {
   std::optional<int> segments;
   std::optional<double> time_per_segment_s;
   std::string compute_table;
+  std::string site = "simulation";
   int threads = 0;  ///< 0: all cores
   bool realtime = false;
   std::string out;
@@ -73,6 +76,7 @@ struct ImportArguments {
 };
 
 struct BenchArguments {
+  const RunRegistries* registries = nullptr;  ///< what the missions may name
   std::vector<std::string> missions;
   std::vector<std::string> planners = {"vmp", "vmp_released@reference", "rvp", "rvp@reference"};
   std::vector<double> budgets_s;  ///< seconds per segment; empty: the missions'

@@ -4,21 +4,28 @@
 
 namespace canopeer::app {
 
-MissionFile load(const MissionArguments& arguments, const Overrides& extra) {
-  Overrides overrides;
+StageRequest stage_request(const MissionArguments& arguments, const Overrides& extra) {
+  StageRequest request;
+  request.mission = arguments.path;
   for (const auto& setting : arguments.settings) {
     const auto equals = setting.find('=');
     if (equals == std::string::npos || equals == 0) {
       stop_with(kBadInput, {"--set " + setting + ": expected key=value"});
     }
-    overrides.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
+    request.overrides.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
   }
-  if (arguments.seed) overrides.emplace_back("seed", std::to_string(*arguments.seed));
-  overrides.insert(overrides.end(), extra.begin(), extra.end());
-  const std::vector<std::filesystem::path> tables = {
-      std::filesystem::path(arguments.path).parent_path() / "../compute_tables",
-      std::filesystem::path(CANOPEER_DATA_DIR) / "compute_tables"};
-  return value_or_stop(load_mission(arguments.path, overrides, tables), kBadInput);
+  if (arguments.seed) request.overrides.emplace_back("seed", std::to_string(*arguments.seed));
+  request.overrides.insert(request.overrides.end(), extra.begin(), extra.end());
+  request.table_dirs = {request.mission.parent_path() / "../compute_tables",
+                        std::filesystem::path(CANOPEER_DATA_DIR) / "compute_tables"};
+  return request;
+}
+
+MissionFile load(const MissionArguments& arguments, const Overrides& extra) {
+  const StageRequest request = stage_request(arguments, extra);
+  return value_or_stop(
+      load_mission(request.mission, request.overrides, request.table_dirs, *arguments.registries),
+      kBadInput);
 }
 
 }  // namespace canopeer::app

@@ -9,7 +9,7 @@
 namespace canopeer {
 
 /// Fruits found (0.20 m) over the time in segments: per contestant the mean over its runs, with a
-/// band of one standard deviation; the published comparison's figure.
+/// band of one standard deviation. The published comparison has the same figure.
 [[nodiscard]] SvgPlot found_plot(const Match& match);
 
 /// Times between views of all runs, a box per contestant; the published comparison's other figure.

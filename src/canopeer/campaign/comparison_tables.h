@@ -10,8 +10,9 @@ namespace canopeer {
 /// `runs.csv`: one row a run, a column a figure; an empty field: not measured.
 [[nodiscard]] std::string runs_csv(const std::vector<RunFigures>& runs);
 
-/// `comparison.csv`: one row per mission, budget, planner and figure: n, mean, standard deviation,
-/// 95 % interval, and against the first planner the paired difference with interval and p values.
+/// `comparison.csv`: one row per mission, budget, planner and figure. Columns: n, mean, standard
+/// deviation, 95 % interval; then the paired difference from the first planner, with interval and p
+/// values.
 [[nodiscard]] std::string comparison_csv(const Comparison& comparison);
 
 /// `comparison.md`: a table of all figures for each mission and budget, and the paired tests.

@@ -32,12 +32,12 @@ struct JobPoolOptions {
 };
 
 /// Makes the runs as processes of this machine. A run is made in `DIR.part` and renamed when it is
-/// whole, with the command that made it in `DIR/command`; runs that are there are left alone, so an
-/// interrupted campaign goes on where it was. A run that fails is reported and the others go on;
-/// what it printed is kept in `DIR.log`.
+/// whole; `DIR/command` holds the command that made it. Runs that are there are left alone, so an
+/// interrupted campaign goes on where it was. A run that fails is reported, and the others go on.
+/// What a failed run printed is kept in `DIR.log`.
 ///
-/// `stop` set: the runs under way are ended and lost, the call returns. The error: OUT holds runs
-/// made by other commands (another mission file, other settings), or cannot be written.
+/// When `stop` is set, the runs under way are ended and lost, and the call returns. Error: OUT
+/// cannot be written, or holds runs made by other commands (another mission file, other settings).
 [[nodiscard]] Expected<void> run_jobs(const CampaignPlan& plan, const JobPoolOptions& options,
                                       const std::atomic<bool>& stop,
                                       const std::function<void(const CampaignProgress&)>& report);

@@ -23,9 +23,10 @@ struct SampleFigures {
 /// What pairs (same world, same start) say about the difference of two planners.
 struct PairedFigures {
   SampleFigures difference;  ///< of b − a
-  /// Two-sided p of no difference; nothing for fewer than two pairs. Wilcoxon's signed ranks (zeros
-  /// dropped, ties with mean ranks) and the sign-flip permutation test of the mean: both exact up
-  /// to 20 pairs, above that the normal approximation and 100 000 random flips.
+  /// Two-sided p of no difference; nothing for fewer than two pairs. p_wilcoxon is of Wilcoxon's
+  /// signed ranks: zeros dropped, ties with mean ranks. p_permutation is of the sign-flip
+  /// permutation test of the mean. Up to 20 pairs both are exact. Above, the first takes the normal
+  /// approximation, the second 100 000 random flips.
   std::optional<double> p_wilcoxon;
   std::optional<double> p_permutation;
 };

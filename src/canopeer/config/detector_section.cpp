@@ -65,8 +65,9 @@ void read_network(YamlMap& detector, const std::filesystem::path& directory,
 
 }  // namespace
 
-void read_detector(YamlMap detector, const std::filesystem::path& directory, DetectorOptions& o) {
-  o.kind = detector.choice("kind", o.kind, detector_names());
+void read_detector(YamlMap detector, const std::filesystem::path& directory,
+                   const std::vector<std::string>& kinds, DetectorOptions& o) {
+  o.kind = detector.choice("kind", o.kind, kinds);
   if (o.kind == "colour") read_colour(detector, o.colour);
   if (o.kind == "labels") read_labels(detector, o.labels);
   if (o.kind == "network") read_network(detector, directory, o.network);

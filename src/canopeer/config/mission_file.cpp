@@ -1,5 +1,6 @@
 #include "canopeer/config/mission_file.h"
 
+#include <map>
 #include <numbers>
 
 #include "canopeer/config/camera_section.h"
@@ -135,6 +136,13 @@ void read_collision(YamlMap collision, CollisionOptions& o) {
   o.unknown_blocks = collision.choice("unknown", "free", {"free", "blocked"}) == "blocked";
 }
 
+/// The options of somebody's own planner or detector: any keys.
+std::map<std::string, std::string> read_own(YamlMap section) {
+  std::map<std::string, std::string> own;
+  for (const std::string& key : section.keys()) own[key] = section.text(key, {});
+  return own;
+}
+
 Expected<CostTable> find_cost_table(const std::string& name, const fs::path& mission_dir,
                                     const std::vector<fs::path>& dirs) {
   if (name == "free") return CostTable{};
@@ -155,7 +163,8 @@ Expected<CostTable> find_cost_table(const std::string& name, const fs::path& mis
 }  // namespace
 
 Expected<MissionFile> load_mission(const fs::path& path, const Overrides& overrides,
-                                   const std::vector<fs::path>& table_dirs) {
+                                   const std::vector<fs::path>& table_dirs,
+                                   const Registries& registries) {
   auto file = YamlMap::load(path);
   if (!file) return tl::unexpected(file.error());
   for (const auto& [key, value] : overrides) {
@@ -166,7 +175,7 @@ Expected<MissionFile> load_mission(const fs::path& path, const Overrides& overri
   VmpOptions& vmp = mission.planners.vmp;
   mission.name = file->text("name", path.stem().string());
   result.robot = path.parent_path() / file->required_text("robot");
-  mission.planner = file->choice("planner", mission.planner, planner_names());
+  mission.planner = file->choice("planner", mission.planner, registries.planners.names());
   mission.seed = static_cast<std::uint64_t>(file->number("seed", 1, {0, 9007199254740992.0}));
   // The published system is as fast as it was, unless asked otherwise.
   if (mission.planner == "vmp_released") result.compute_table = "reference";
@@ -185,7 +194,10 @@ Expected<MissionFile> load_mission(const fs::path& path, const Overrides& overri
   read_rvp(file->map("rvp"), mission.planners.rvp);
   read_coverage(file->map("coverage"), mission.planners.coverage.scan);
   read_collision(file->map("collision"), mission.collision);
-  read_detector(file->map("detector"), path.parent_path(), mission.detector);
+  read_detector(file->map("detector"), path.parent_path(), registries.detectors.names(),
+                mission.detector);
+  mission.planners.own = read_own(file->map("own_planner"));
+  mission.detector.own = read_own(file->map("own_detector"));
   read_fruit(*file, mission.fruit);
   result.simulation.arrival_error_rad =
       file->map("simulation").number("arrival_error_rad", 0.0, {0.0, 0.2});

@@ -9,6 +9,7 @@
 #include "canopeer/base/expected.h"
 #include "canopeer/import/world_source.h"
 #include "canopeer/mission/mission_options.h"
+#include "canopeer/mission/registries.h"
 #include "canopeer/sim/simulation.h"
 
 namespace canopeer {
@@ -27,10 +28,11 @@ struct MissionFile {
 /// Settings from the command line that come before those of the file: dotted key and YAML value.
 using Overrides = std::vector<std::pair<std::string, std::string>>;
 
-/// Reads a mission and its cost table. `table_dirs`: where tables given by name are looked for. The
-/// error has file, line and key.
+/// Reads a mission and its cost table. `table_dirs`: where tables given by name are looked for;
+/// `registries`: the planners and detectors that may be named. The error has file, line and key.
 [[nodiscard]] Expected<MissionFile> load_mission(
     const std::filesystem::path& path, const Overrides& overrides,
-    const std::vector<std::filesystem::path>& table_dirs);
+    const std::vector<std::filesystem::path>& table_dirs,
+    const Registries& registries = Registries::built_in());
 
 }  // namespace canopeer

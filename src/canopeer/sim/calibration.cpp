@@ -48,19 +48,17 @@ double best_per_unit(Work&& work) {
 class Bench {
  public:
   Bench(const RobotModel& robot, const ArmIk& ik, const Scene& scene, const MissionOptions& mission,
-        const SimulationOptions& options)
+        const Detector& detector, const SimulationOptions& options)
       : robot_(robot),
         ik_(ik),
         mission_(mission),
+        detector_(detector),
         plan_(mission.segments.front()),
         home_(robot.home("side_" + std::to_string(plan_.side))),
         simulation_(robot, scene, home_, plan_.trolley, options),
         map_(mission.map),
         field_(field_options(), map_.resolution_m()),
         checker_(robot, plan_.trolley, mission.collision) {
-    auto detector = make_detector(mission.detector);
-    CANOPEER_CHECK(detector.has_value(), "the mission's detector was made before");
-    detector_ = std::move(*detector);
     frame_.trolley = plan_.trolley;
     frame_.T_world_base = robot.T_world_base(plan_.trolley);
     frame_.workspace_base = robot.workspace(plan_.side);
@@ -86,7 +84,7 @@ class Bench {
       targets = current_targets(sampler);
     }
     costs[Work::detect_frame] = best_per_unit([&] {
-      for (const auto& frame : frames) static_cast<void>(detector_->detect(frame));
+      for (const auto& frame : frames) static_cast<void>(detector_.detect(frame));
       return frames.size();
     });
     costs[Work::fuse_point] = best_per_unit([&] {
@@ -229,7 +227,7 @@ class Bench {
     return std::move(*frame);
   }
   void take_in(const RgbdFrame& frame) {
-    const auto seen = detector_->detect(frame);
+    const auto seen = detector_.detect(frame);
     CANOPEER_CHECK(seen.has_value(), "a detector that was made detects");
     field_.update(map_, fuse(map_, frame, seen->fruit, mission_.fusion).changed);
   }
@@ -241,10 +239,10 @@ class Bench {
   const RobotModel& robot_;
   const ArmIk& ik_;
   const MissionOptions& mission_;
+  const Detector& detector_;
   SegmentPlan plan_;
   Configuration home_;
   Simulation simulation_;
-  std::unique_ptr<Detector> detector_;
   VoxelMap map_;
   DistanceField field_;
   CollisionChecker checker_;
@@ -254,12 +252,13 @@ class Bench {
 }  // namespace
 
 CostTable measure_costs(const RobotModel& robot, const ArmIk& ik, const Scene& scene,
-                        const MissionOptions& mission, const SimulationOptions& simulation,
+                        const MissionOptions& mission, const Detector& detector,
+                        const SimulationOptions& simulation,
                         const std::function<void(std::string_view)>& progress) {
   // The cost table counts one core's seconds.
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   CostTable costs;
-  Bench bench(robot, ik, scene, mission, simulation);
+  Bench bench(robot, ik, scene, mission, detector, simulation);
   progress("frames: detecting, fusing, distances, targets");
   bench.measure_frames(costs);
   progress("views: sampling, kinematics, collisions, motions");

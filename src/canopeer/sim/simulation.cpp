@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "canopeer/base/rng.h"
+#include "canopeer/geometry/state_archive.h"
 #include "canopeer/render/renderer.h"
 #include "canopeer/robot/corner_rounding.h"
 #include "canopeer/robot/straight_timing.h"
@@ -22,6 +23,19 @@ RgbdSensorOptions sensor_options(const SimulationOptions& options) {
 
 /// The one world all ports act on.
 struct Simulation::State {
+  /// What moves on in it.
+  struct Moving {
+    double now_s = 0.0;
+    Configuration q;
+    TrolleyState trolley;
+    Rng arrival_errors{0};
+    std::uint64_t frames = 0;  // taken
+    template <typename Archive>
+    void serialize(Archive& archive) {
+      archive(now_s, q, trolley.travel_m, trolley.lift_m, arrival_errors, frames);
+    }
+  };
+
   State(const RobotModel& model, const Scene& scene, const Configuration& start,
         const TrolleyState& place, const SimulationOptions& o)
       : robot(model),
@@ -31,7 +45,8 @@ struct Simulation::State {
         judge(model, scene),
         time(o.realtime),
         q(start),
-        trolley(place) {}
+        trolley(place),
+        arrival_errors(o.seed, "arrival error") {}
 
   const RobotModel& robot;
   SimulationOptions options;
@@ -42,6 +57,8 @@ struct Simulation::State {
   SimulationTime time;
   Configuration q;
   TrolleyState trolley;
+  Rng arrival_errors;
+  std::uint64_t frames = 0;  // taken
 };
 
 class Simulation::SimClock : public Clock {
@@ -50,6 +67,7 @@ class Simulation::SimClock : public Clock {
   double now_s() const override { return state_.time.now_s(); }
   void charge(double compute_s) override { state_.time.charge(compute_s); }
   void sleep(double seconds) override { state_.time.pass_until(state_.time.now_s() + seconds); }
+  bool simulated() const override { return !state_.options.realtime; }
 
  private:
   State& state_;
@@ -57,7 +75,7 @@ class Simulation::SimClock : public Clock {
 
 class Simulation::SimArm : public Arm {
  public:
-  explicit SimArm(State& state) : state_(state), rng_(state.options.seed, "arrival error") {}
+  explicit SimArm(State& state) : state_(state) {}
 
   Configuration configuration() const override { return state_.q; }
 
@@ -89,14 +107,13 @@ class Simulation::SimArm : public Arm {
     if (state_.options.arrival_error_rad <= 0.0) return q;
     const JointLimits& limits = state_.robot.limits();
     for (Eigen::Index i = 0; i < q.size(); ++i) {
-      q[i] = std::clamp(q[i] + rng_.normal(0.0, state_.options.arrival_error_rad), limits.lower[i],
-                        limits.upper[i]);
+      q[i] = std::clamp(q[i] + state_.arrival_errors.normal(0.0, state_.options.arrival_error_rad),
+                        limits.lower[i], limits.upper[i]);
     }
     return q;
   }
 
   State& state_;
-  Rng rng_;
   MotionOutcome outcome_;
   double end_s_ = 0.0;
 };
@@ -141,14 +158,13 @@ class Simulation::SimCamera : public Camera {
     const auto pause = state_.time.pause();
     RgbdFrame frame = state_.sensor.capture(
         state_.robot.T_world_base(state_.trolley) * state_.robot.T_base_camera(state_.q),
-        frames_++);
+        state_.frames++);
     frame.time_s = state_.time.now_s();
     return frame;
   }
 
  private:
   State& state_;
-  std::uint64_t frames_ = 0;
 };
 
 Simulation::Simulation(const RobotModel& robot, const Scene& scene, const Configuration& q,
@@ -166,5 +182,23 @@ Ports Simulation::ports() { return {clock_.get(), arm_.get(), trolley_.get(), ca
 void Simulation::watch_map(const VoxelMap* map) { state_->map = map; }
 
 const MotionJudge& Simulation::judge() const { return state_->judge; }
+
+std::string Simulation::state() const {
+  const State& s = *state_;
+  return state_bytes(State::Moving{s.time.now_s(), s.q, s.trolley, s.arrival_errors, s.frames});
+}
+
+Expected<void> Simulation::restore(std::string_view state) {
+  State::Moving then;
+  if (auto ok = read_state_bytes(state, then); !ok) return ok;
+  State& s = *state_;
+  if (then.q.size() != s.q.size()) return fail("the state is of another robot");
+  s.time.set_simulated(then.now_s);
+  s.q = then.q;
+  s.trolley = then.trolley;
+  s.arrival_errors = then.arrival_errors;
+  s.frames = then.frames;
+  return {};
+}
 
 }  // namespace canopeer

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <string_view>
 
 #include "canopeer/mission/ports.h"
 #include "canopeer/render/rgbd_sensor.h"
@@ -38,6 +40,12 @@ class Simulation {
   /// The map whose occupied voxels a motion must not touch; null: not judged. Outlives its use.
   void watch_map(const VoxelMap* map);
   [[nodiscard]] const MotionJudge& judge() const;
+
+  /// Where everything is between two motions, in simulated time: clock, arm, trolley, and what
+  /// chance has drawn so far. As bytes.
+  [[nodiscard]] std::string state() const;
+  /// In a simulation with the same robot, scene and options; it is as it was after an error.
+  [[nodiscard]] Expected<void> restore(std::string_view state);
 
  private:
   struct State;

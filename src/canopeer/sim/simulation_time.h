@@ -16,6 +16,9 @@ class SimulationTime {
   /// Comes back at that time, or at once when it is past.
   void pass_until(double time_s);
 
+  /// Puts a simulated clock back, or forward.
+  void set_simulated(double time_s) { simulated_s_ = time_s; }
+
   /// While it lives, a wall clock stands still. Not nested.
   class Pause {
    public:

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <type_traits>
 #include <utility>
 
 #include "canopeer/base/expected.h"
@@ -11,9 +12,11 @@ namespace canopeer {
 /// The value; a program that cannot go on without it says what is wrong and ends with status 2.
 template <typename T>
 T must(Expected<T> value) {
-  if (value) return std::move(*value);
-  std::fprintf(stderr, "%s\n", value.error().message.c_str());
-  std::exit(2);
+  if (!value) {
+    std::fprintf(stderr, "%s\n", value.error().message.c_str());
+    std::exit(2);
+  }
+  if constexpr (!std::is_void_v<T>) return std::move(*value);
 }
 
 }  // namespace canopeer

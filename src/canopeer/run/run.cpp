@@ -1,0 +1,179 @@
+#include "canopeer/run/run.h"
+
+#include <oneapi/tbb/global_control.h>
+
+#include <chrono>
+#include <optional>
+#include <utility>
+
+#include "canopeer/base/check.h"
+#include "canopeer/mission/record_keeper.h"
+#include "canopeer/run/run_results.h"
+
+namespace canopeer {
+namespace {
+
+namespace fs = std::filesystem;
+using SteadyClock = std::chrono::steady_clock;
+
+RunHeader header_of(const MissionFile& file) {
+  RunHeader header;
+  header.canopeer_version = CANOPEER_VERSION;
+  header.mission = file.mission.name;
+  header.planner = file.mission.planner;
+  header.seed = file.mission.seed;
+  header.compute_table = file.compute_table;
+  header.segments = static_cast<int>(file.mission.segments.size());
+  header.segment_time_s = file.mission.segment_time_s;
+  header.settings_json = file.settings_json;
+  return header;
+}
+
+/// The same text, the same run: its settings too.
+std::string identity(const RunHeader& h) {
+  return h.mission + " " + h.planner + " seed " + std::to_string(h.seed) + ", canopeer " +
+         h.canopeer_version + ", compute table " + h.compute_table + " " + h.settings_json;
+}
+
+std::string without_settings(const std::string& run) { return run.substr(0, run.find(" {")); }
+
+fs::path out_or_default(fs::path out, const RunHeader& header) {
+  if (!out.empty()) return out;
+  return fs::path("out") /
+         (header.mission + "-" + header.planner + "-seed" + std::to_string(header.seed));
+}
+
+}  // namespace
+
+struct Run::State {
+  State(std::unique_ptr<Stage> s, fs::path directory)
+      : stage(std::move(s)),
+        header(header_of(stage->file())),
+        out(out_or_default(std::move(directory), header)),
+        mission(stage->robot(), stage->site().ports(), stage->file().mission, stage->registries()) {
+    stage->site().watch_map(&mission.map());
+  }
+
+  SteadyClock::time_point begun;
+  std::unique_ptr<tbb::global_control> threads;  // as many as asked for; null: all cores
+  std::unique_ptr<Stage> stage;
+  RunHeader header;
+  fs::path out;
+  std::optional<RecordKeeper> record;
+  Mission mission;
+  enum class Phase { composed, running, ended } phase = Phase::composed;
+  Expected<void> outcome;
+};
+
+Run::Run(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Run::~Run() = default;
+
+Expected<std::unique_ptr<Run>> Run::compose(const StageRequest& request,
+                                            const RunRegistries& registries, fs::path out) {
+  auto file = load_mission(request.mission, request.overrides, request.table_dirs, registries);
+  if (!file) return tl::unexpected(file.error());
+  return compose(std::move(*file), request, registries, std::move(out));
+}
+
+Expected<std::unique_ptr<Run>> Run::compose(MissionFile file, const StageRequest& request,
+                                            const RunRegistries& registries, fs::path out) {
+  const auto begun = SteadyClock::now();
+  std::unique_ptr<tbb::global_control> threads;
+  if (request.threads > 0) {
+    threads = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                    static_cast<std::size_t>(request.threads));
+  }
+  auto stage = Stage::make(std::move(file), request, registries);
+  if (!stage) return tl::unexpected(stage.error());
+  auto state = std::make_unique<State>(std::move(*stage), std::move(out));
+  std::error_code code;
+  fs::create_directories(state->out, code);
+  if (code) return fail(state->out.string() + ": cannot make the directory: " + code.message());
+  state->begun = begun;
+  state->threads = std::move(threads);
+  return std::unique_ptr<Run>(new Run(std::move(state)));
+}
+
+void Run::watch(std::shared_ptr<Watcher> watcher, const WatchOptions& options) {
+  state_->mission.watch(std::move(watcher), options);
+}
+void Run::keep(Keeper& keeper) { state_->mission.keep(keeper); }
+void Run::steer(Steering& steering) { state_->mission.steer(steering); }
+const Expected<void>& Run::outcome() const { return state_->outcome; }
+bool Run::interrupted() const { return state_->record && state_->record->record().interrupted; }
+const fs::path& Run::out() const { return state_->out; }
+const MissionFile& Run::file() const { return state_->stage->file(); }
+Stage& Run::stage() { return *state_->stage; }
+const Mission& Run::mission() const { return state_->mission; }
+const RunRecord& Run::record() const {
+  CANOPEER_CHECK(state_->record.has_value(), "begin() comes first");
+  return state_->record->record();
+}
+
+Expected<Summary> Run::execute() {
+  if (auto ok = begin(); !ok) return tl::unexpected(ok.error());
+  while (step()) {
+  }
+  auto summary = finish();
+  if (!outcome()) return tl::unexpected(outcome().error());
+  return summary;
+}
+
+Expected<void> Run::begin() {
+  State& s = *state_;
+  if (s.phase != State::Phase::composed) return fail("a run begins once");
+  auto keeper = RecordKeeper::create(s.out, s.header);
+  if (!keeper) return tl::unexpected(keeper.error());
+  s.record.emplace(std::move(*keeper));
+  s.mission.keep(*s.record);
+  s.phase = State::Phase::running;
+  return {};
+}
+
+Expected<void> Run::resume(RunState state) {
+  State& s = *state_;
+  if (s.phase != State::Phase::composed) return fail("a run begins once");
+  s.phase = State::Phase::ended;  // until all has gone well
+  if (state.run != identity(s.header)) {
+    return fail("the state is of another run, or of one with other settings: it is of " +
+                without_settings(state.run) + "; this is " + without_settings(identity(s.header)));
+  }
+  if (auto ok = s.stage->site().restore(state.site); !ok) return fail_in("site", ok.error());
+  if (auto ok = s.mission.check(state.mission); !ok) return ok;
+  auto keeper = RecordKeeper::resume(s.out, s.header, state.record_bytes);
+  if (!keeper) return tl::unexpected(keeper.error());
+  s.record.emplace(std::move(*keeper));
+  s.mission.keep(*s.record);
+  if (auto ok = s.mission.restore(std::move(state.mission)); !ok) return ok;
+  s.phase = State::Phase::running;
+  return {};
+}
+
+bool Run::step() {
+  State& s = *state_;
+  CANOPEER_CHECK(s.phase == State::Phase::running, "begin() comes first, finish() last");
+  const auto more = s.mission.step();
+  if (!more) s.outcome = tl::unexpected(more.error());
+  return more.value_or(false);
+}
+
+Expected<Summary> Run::finish() {
+  State& s = *state_;
+  if (s.phase != State::Phase::running) return fail("a run ends once, after begin()");
+  s.phase = State::Phase::ended;
+  if (auto ended = s.mission.end(); !ended && s.outcome) s.outcome = std::move(ended);
+  const std::chrono::duration<double> wall = SteadyClock::now() - s.begun;
+  return write_results(s.out, s.record->record(), s.mission, s.stage->site().truth(), wall.count());
+}
+
+Expected<RunState> Run::state() const {
+  const State& s = *state_;
+  if (s.phase != State::Phase::running) return fail("only a run under way has a state");
+  auto mission = s.mission.state();
+  if (!mission) return tl::unexpected(mission.error());
+  auto site = s.stage->site().save();
+  if (!site) return fail_in("site", site.error());
+  return RunState{identity(s.header), std::move(*mission), std::move(*site), s.record->bytes()};
+}
+
+}  // namespace canopeer

@@ -1,0 +1,70 @@
+#include "canopeer/run/simulation_site.h"
+
+#include <chrono>
+#include <cstdio>
+#include <utility>
+
+namespace canopeer {
+namespace {
+
+class SimulationSite : public Site {
+ public:
+  SimulationSite(Scene scene, const SiteRequest& request)
+      : realtime_(request.file.simulation.realtime),
+        scene_(std::move(scene)),
+        simulation_(request.robot, scene_, first_home(request),
+                    request.file.mission.segments.front().trolley, request.file.simulation) {}
+
+  Ports ports() override { return simulation_.ports(); }
+  const ExactChecker& judge() const override { return simulation_.judge().checker(); }
+  void watch_map(const VoxelMap* map) override { simulation_.watch_map(map); }
+  const Scene* truth() const override { return &scene_; }
+  Expected<std::string> save() const override {
+    if (realtime_) return fail("what happens on the wall clock cannot be put back");
+    return simulation_.state();
+  }
+  Expected<void> restore(std::string_view state) override { return simulation_.restore(state); }
+
+ private:
+  static Configuration first_home(const SiteRequest& request) {
+    const SegmentPlan& first = request.file.mission.segments.front();
+    return request.robot.home("side_" + std::to_string(first.side));
+  }
+
+  bool realtime_;
+  Scene scene_;
+  Simulation simulation_;
+};
+
+std::string import_line(const Scene& scene, double seconds) {
+  char text[256];
+  std::snprintf(text, sizeof text, "imported %s: %zu triangles, %zu fruits (%d count) in %.1f s",
+                scene.name.c_str(), scene.triangle_count(), scene.fruits.size(),
+                scene.counted_fruits(), seconds);
+  return text;
+}
+
+}  // namespace
+
+Expected<ImportedScene> build_world_saying(const WorldSource& source, std::uint64_t seed,
+                                           const SiteCallbacks& tell) {
+  const auto begin = std::chrono::steady_clock::now();
+  auto built = build_world(source, seed, tell.on_import);
+  if (!built) return built;
+  if (source.imported() && tell.on_news) {
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    tell.on_news(import_line(built->scene, took.count()));
+  }
+  for (const std::string& text : built->notices) {
+    if (tell.on_notice) tell.on_notice(text);
+  }
+  return built;
+}
+
+Expected<std::unique_ptr<Site>> make_simulation_site(const SiteRequest& request) {
+  auto built = build_world_saying(request.file.world, request.file.mission.seed, request.callbacks);
+  if (!built) return tl::unexpected(built.error());
+  return std::make_unique<SimulationSite>(std::move(built->scene), request);
+}
+
+}  // namespace canopeer

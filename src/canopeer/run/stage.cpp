@@ -1,0 +1,111 @@
+#include "canopeer/run/stage.h"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "canopeer/config/robot_file.h"
+
+namespace canopeer {
+namespace {
+
+/// One thread acts and searches, the others grow the graph.
+void put_on_the_wall_clock(MissionFile& file, int threads) {
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());
+  file.simulation.realtime = true;
+  file.mission.background_workers = std::max(1, (threads > 0 ? threads : cores) - 1);
+  file.compute_table = "wall-clock";
+}
+
+/// The home states of the sides a mission visits must exist before anything moves.
+Expected<void> check_sides(const MissionFile& file, const RobotModel& robot) {
+  const auto outside = [](const Joint& axis, double value) {
+    return value < axis.lower - 1e-9 || value > axis.upper + 1e-9;
+  };
+  for (const auto& segment : file.mission.segments) {
+    const std::string home = "side_" + std::to_string(segment.side);
+    if (segment.side > robot.sides() || !robot.has_home(home)) {
+      return fail(file.robot.string() + ": has no boxes or home state for " + home +
+                  ", which the mission visits");
+    }
+    if (outside(robot.travel_axis(), segment.trolley.travel_m) ||
+        outside(robot.lift_axis(), segment.trolley.lift_m)) {
+      return fail("stops_travel_m, lifts_m: " + segment.name +
+                  " is beyond the limits of the trolley's axes in " + file.robot.string());
+    }
+  }
+  return {};
+}
+
+/// Where unknown space blocks and nothing is known to be free, the arm could not leave its home.
+Expected<void> check_known_free(const MissionFile& file, const RobotModel& robot) {
+  if (!file.mission.collision.unknown_blocks || !robot.setup().known_free.isEmpty()) return {};
+  return fail(file.robot.string() +
+              ": 'collision.unknown: blocked' needs known_free here, a box in the frame of '" +
+              robot.setup().base_link +
+              "' in which there is nothing but the robot (the aisle, say): without it the arm "
+              "cannot leave its home");
+}
+
+/// A site of one's own may be anything.
+Expected<void> check_site(const std::string& name, Site* site, bool realtime) {
+  const Ports ports = site != nullptr ? site->ports() : Ports{};
+  if (ports.clock == nullptr || ports.arm == nullptr || ports.trolley == nullptr ||
+      ports.camera == nullptr) {
+    return fail("site '" + name + "': a port is missing (clock, arm, trolley or camera)");
+  }
+  if (ports.clock->simulated() == realtime) {
+    return fail("site '" + name + "': its time is " +
+                (realtime ? "simulated, run it without --realtime"
+                          : "the wall clock's, run it with --realtime"));
+  }
+  return {};
+}
+
+Expected<void> check(const MissionFile& file, const RobotModel& robot,
+                     const Registries& registries) {
+  if (file.mission.segments.empty()) return fail("the mission has no segments");
+  if (auto ok = check_sides(file, robot); !ok) return ok;
+  if (auto ok = check_known_free(file, robot); !ok) return ok;
+  const auto detector = registries.detectors.make(file.mission.detector);
+  if (!detector) return tl::unexpected(detector.error());
+  const auto planner = registries.planners.make(file.mission.planner, file.mission.planners);
+  if (!planner) return tl::unexpected(planner.error());
+  return {};
+}
+
+}  // namespace
+
+Stage::Stage(MissionFile file, RobotModel robot, ArmIk ik, const RunRegistries& registries)
+    : file_(std::move(file)),
+      robot_(std::move(robot)),
+      ik_(std::move(ik)),
+      registries_(registries) {}
+
+Expected<std::unique_ptr<Stage>> Stage::make(const StageRequest& request,
+                                             const RunRegistries& registries) {
+  auto file = load_mission(request.mission, request.overrides, request.table_dirs, registries);
+  if (!file) return tl::unexpected(file.error());
+  return make(std::move(*file), request, registries);
+}
+
+Expected<std::unique_ptr<Stage>> Stage::make(MissionFile file, const StageRequest& request,
+                                             const RunRegistries& registries) {
+  if (request.realtime) put_on_the_wall_clock(file, request.threads);
+  auto robot = load_robot(file.robot, file.T_frame_camera);
+  if (!robot) return tl::unexpected(robot.error());
+  auto ik = ArmIk::make(*robot);
+  if (!ik) return tl::unexpected(ik.error());
+  if (auto ok = check(file, *robot, registries); !ok) return tl::unexpected(ok.error());
+  std::unique_ptr<Stage> stage(
+      new Stage(std::move(file), std::move(*robot), std::move(*ik), registries));
+  auto site = registries.sites.make(request.site, {stage->file_, stage->robot_, request.callbacks});
+  if (!site) return tl::unexpected(site.error());
+  if (auto ok = check_site(request.site, site->get(), request.realtime); !ok) {
+    return tl::unexpected(ok.error());
+  }
+  stage->site_ = std::move(*site);
+  return stage;
+}
+
+}  // namespace canopeer

@@ -1,0 +1,168 @@
+#include "canopeer/run/run.h"
+
+#include <gtest/gtest.h>
+
+#include "canopeer/base/atomic_file.h"
+#include "canopeer/record/record_file.h"
+
+namespace canopeer {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RunTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    request_.mission = CANOPEER_SOURCE_DIR "/missions/smoke.yaml";
+    request_.overrides = {{"time_per_segment_s", "4"}};
+    request_.table_dirs = {CANOPEER_SOURCE_DIR "/compute_tables"};
+  }
+  void TearDown() override { fs::remove_all(out_); }
+
+  fs::path out_ = fs::temp_directory_path() /
+                  ("canopeer_run_" +
+                   std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+  StageRequest request_;
+  RunRegistries registries_ = RunRegistries::built_in();
+};
+
+/// The simulated glasshouse, but nobody tells what is in it: as on a real robot.
+class TightLipped : public Site {
+ public:
+  explicit TightLipped(std::unique_ptr<Site> site) : site_(std::move(site)) {}
+  Ports ports() override { return site_->ports(); }
+  const ExactChecker& judge() const override { return site_->judge(); }
+
+ private:
+  std::unique_ptr<Site> site_;
+};
+
+TEST_F(RunTest, LeavesItsResultsInItsDirectory) {
+  const auto run = Run::compose(request_, registries_, out_);
+  ASSERT_TRUE(run.has_value()) << run.error().message;
+  const auto summary = (*run)->execute();
+  ASSERT_TRUE(summary.has_value()) << summary.error().message;
+  EXPECT_TRUE((*run)->outcome().has_value());
+  EXPECT_FALSE((*run)->interrupted());
+  EXPECT_GT(summary->views, 1);
+  EXPECT_EQ(summary->fruits_total, 47);
+  for (const char* file : {"record", "summary.json", "timeline.csv", "fruits.csv", "fruits.ply",
+                           "map.ot", "ground_truth.csv", "report.html"}) {
+    EXPECT_TRUE(fs::exists(out_ / file)) << file;
+  }
+}
+
+TEST_F(RunTest, OnASiteThatKnowsNoTruthLeavesScoresOpenAndAReportAllTheSame) {
+  ASSERT_TRUE(registries_.sites
+                  .add("robot", "keeps its secrets",
+                       [](const SiteRequest& request) -> Expected<std::unique_ptr<Site>> {
+                         auto site = SiteRegistry::built_in().make("simulation", request);
+                         if (!site) return site;
+                         return std::make_unique<TightLipped>(std::move(*site));
+                       })
+                  .has_value());
+  request_.site = "robot";
+  const auto run = Run::compose(request_, registries_, out_);
+  ASSERT_TRUE(run.has_value()) << run.error().message;
+  const auto summary = (*run)->execute();
+  ASSERT_TRUE(summary.has_value()) << summary.error().message;
+  EXPECT_FALSE(summary->fruits_total.has_value());
+  EXPECT_FALSE(summary->auc.has_value());
+  EXPECT_GT(summary->joint_path_length_rad, 0.0);
+  EXPECT_FALSE(fs::exists(out_ / "ground_truth.csv"));
+  EXPECT_TRUE(fs::exists(out_ / "report.html"));
+  EXPECT_FALSE((*run)->state().has_value());  // such a site cannot be put back
+}
+
+TEST_F(RunTest, NamesTheSitesThereAreWhenAskedForAnother) {
+  request_.site = "mars";
+  const auto run = Run::compose(request_, registries_, out_);
+  ASSERT_FALSE(run.has_value());
+  EXPECT_NE(run.error().message.find("mars"), std::string::npos);
+  EXPECT_NE(run.error().message.find("simulation"), std::string::npos);
+}
+
+TEST_F(RunTest, RefusesASiteThatHasNoPortsOrWhoseClockIsAnother) {
+  const auto add = [&](const char* name, SiteRegistry::Factory factory) {
+    ASSERT_TRUE(registries_.sites.add(name, "", std::move(factory)).has_value());
+  };
+  add("nothing", [](const SiteRequest&) -> Expected<std::unique_ptr<Site>> {
+    return std::unique_ptr<Site>();
+  });
+  request_.site = "nothing";
+  auto run = Run::compose(request_, registries_, out_);
+  ASSERT_FALSE(run.has_value());
+  EXPECT_NE(run.error().message.find("site 'nothing': a port is missing"), std::string::npos);
+  add("simulated", [](const SiteRequest& request) -> Expected<std::unique_ptr<Site>> {
+    MissionFile file = request.file;
+    file.simulation.realtime = false;
+    auto site = SiteRegistry::built_in().make("simulation", {file, request.robot});
+    if (!site) return site;
+    return std::make_unique<TightLipped>(std::move(*site));
+  });
+  request_.site = "simulated";
+  request_.realtime = true;
+  run = Run::compose(request_, registries_, out_);
+  ASSERT_FALSE(run.has_value());
+  EXPECT_NE(run.error().message.find("without --realtime"), std::string::npos);
+}
+
+TEST_F(RunTest, SaysNoToCallsOutOfOrder) {
+  const auto run = Run::compose(request_, registries_, out_);
+  ASSERT_TRUE(run.has_value());
+  EXPECT_FALSE((*run)->state().has_value());
+  EXPECT_FALSE((*run)->finish().has_value());
+  ASSERT_TRUE((*run)->begin().has_value());
+  EXPECT_FALSE((*run)->begin().has_value());
+  ASSERT_TRUE((*run)->step());
+  EXPECT_TRUE((*run)->state().has_value());
+  ASSERT_TRUE((*run)->finish().has_value());
+  EXPECT_TRUE((*run)->interrupted());
+  EXPECT_FALSE((*run)->finish().has_value());
+  EXPECT_FALSE((*run)->state().has_value());
+  // The record ends once.
+  const auto record = read_record(out_);
+  ASSERT_TRUE(record.has_value());
+  EXPECT_TRUE(record->interrupted);
+}
+
+/// Wants everything, and takes its time.
+class Onlooker : public Watcher {
+ public:
+  EventNeeds needs() const override { return {true, true}; }
+  void on_event(const Event& event) override {
+    if (const auto* change = std::get_if<MapChanged>(&event)) maps.push_back(change->map);
+  }
+  std::vector<std::shared_ptr<const VoxelMap>> maps;
+};
+
+TEST_F(RunTest, GivesTheSameBytesWithAndWithoutWatchers) {
+  const auto alone = Run::compose(request_, registries_, out_ / "alone");
+  ASSERT_TRUE((*alone)->execute().has_value());
+  const auto watched = Run::compose(request_, registries_, out_ / "watched");
+  const auto onlooker = std::make_shared<Onlooker>();
+  (*watched)->watch(onlooker, {.name = "onlooker", .queue = 2, .wait_in_simulated_time = true});
+  ASSERT_TRUE((*watched)->execute().has_value());
+  for (const char* file : {"record", "fruits.csv", "map.ot"}) {
+    EXPECT_TRUE(read_file(out_ / "alone" / file).value() ==
+                read_file(out_ / "watched" / file).value())
+        << file;
+  }
+  EXPECT_FALSE(onlooker->maps.empty());
+}
+
+TEST_F(RunTest, OnTheWallClockDoesTheSameJob) {
+  request_.realtime = true;
+  request_.overrides = {{"time_per_segment_s", "2"}};
+  const auto run = Run::compose(request_, registries_, out_);
+  ASSERT_TRUE(run.has_value()) << run.error().message;
+  const auto summary = (*run)->execute();
+  ASSERT_TRUE(summary.has_value()) << summary.error().message;
+  EXPECT_EQ(summary->compute_table, "wall-clock");
+  EXPECT_GE(summary->views, 1);
+  const auto state = (*run)->state();
+  EXPECT_FALSE(state.has_value());
+}
+
+}  // namespace
+}  // namespace canopeer
