@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <vector>
 
+#include "canopeer/base/text_lines.h"
 #include "source_tree.h"
 
 namespace canopeer {
@@ -55,6 +57,7 @@ constexpr HeaderOrigin kOrigins[] = {
     {"gtest/", "libgtest-dev"},
     {"benchmark/", "libbenchmark-dev"},
     {"sys/", ""},
+    {"spawn.h", ""},
     {"unistd.h", ""},
     {"immintrin.h", ""},
     {"fcntl.h", ""},
@@ -74,14 +77,38 @@ std::optional<std::string_view> package_of(const std::string& header) {
   return std::nullopt;
 }
 
-/// One package a line; `#` begins a comment.
-std::set<std::string> listed_packages() {
+/// A line of packages.txt: `a`, `a|b` (the first that the release has), `a?` (if it has it).
+struct Listed {
+  std::vector<std::string> names;
+  bool optional = false;
+};
+
+/// Without the comment that `#` begins, and without blanks.
+std::string entry_in(const std::string& line) {
+  std::string entry = line.substr(0, line.find('#'));
+  std::erase_if(entry, [](char c) { return c == ' ' || c == '\t'; });
+  return entry;
+}
+
+std::vector<Listed> packages_file() {
+  std::vector<Listed> all;
+  for (const std::string& line : lines_of(source_root() / "packages.txt")) {
+    std::string entry = entry_in(line);
+    if (entry.empty()) continue;
+    Listed listed;
+    listed.optional = entry.back() == '?';
+    if (listed.optional) entry.pop_back();
+    for (const std::string_view name : words_of(entry, "|")) listed.names.emplace_back(name);
+    all.push_back(std::move(listed));
+  }
+  return all;
+}
+
+std::set<std::string> listed_packages(bool optional_too = true) {
   std::set<std::string> packages;
-  for (std::string line : lines_of(source_root() / "packages.txt")) {
-    line.resize(std::min(line.find('#'), line.size()));
-    const std::size_t first = line.find_first_not_of(" \t");
-    if (first == std::string::npos) continue;
-    packages.insert(line.substr(first, line.find_last_not_of(" \t") - first + 1));
+  for (const Listed& listed : packages_file()) {
+    if (listed.optional && !optional_too) continue;
+    packages.insert(listed.names.begin(), listed.names.end());
   }
   return packages;
 }
@@ -108,16 +135,26 @@ TEST(Packages, EveryThirdPartyHeaderComesFromAListedPackage) {
   }
 }
 
+TEST(Packages, OnlyTestsUseWhatAReleaseMayLack) {
+  const std::set<std::string> required = listed_packages(false);
+  for (const IncludeLine& include : third_party_includes()) {
+    const std::string package(package_of(include.header).value_or(""));
+    if (package.empty() || include.where().find("tests/") != std::string::npos) continue;
+    EXPECT_EQ(required.count(package), 1U) << include.where() << ": " << package << " is optional";
+  }
+}
+
 TEST(Packages, EveryListedLibraryIsUsed) {
   std::set<std::string> used;
   for (const IncludeLine& include : third_party_includes()) {
     used.insert(std::string(package_of(include.header).value_or("")));
   }
-  for (const std::string& package : listed_packages()) {
-    const bool library = package.size() > 4 && package.substr(package.size() - 4) == "-dev";
-    if (library) {
-      EXPECT_EQ(used.count(package), 1U) << package << " is listed but nothing uses it";
-    }
+  for (const Listed& listed : packages_file()) {
+    const std::string& first = listed.names.front();
+    if (!first.ends_with("-dev")) continue;
+    const bool any = std::any_of(listed.names.begin(), listed.names.end(),
+                                 [&](const std::string& name) { return used.count(name) != 0; });
+    EXPECT_TRUE(any) << first << " is listed but nothing uses it";
   }
 }
 
