@@ -10,6 +10,7 @@
 #include "exit_status.h"
 #include "mission_arguments.h"
 #include "progress_bar.h"
+#include "shipped_data.h"
 #include "stop_signal.h"
 
 namespace canopeer::app {
@@ -27,7 +28,7 @@ void read_shard(const std::string& text, CampaignPlan& plan) {
 
 CampaignPlan plan_of(const BenchArguments& a) {
   CampaignPlan plan;
-  for (const auto& mission : a.missions) plan.missions.emplace_back(mission);
+  for (const auto& mission : a.missions) plan.missions.push_back(mission_file_of(mission));
   for (const auto& text : a.planners) {
     const auto contestant = parse_contestant(text);
     if (!contestant) stop_with(kBadInput, {"--planners " + contestant.error().message});

@@ -11,6 +11,7 @@
 #include "exit_status.h"
 #include "import_line.h"
 #include "mission_arguments.h"
+#include "shipped_data.h"
 
 namespace canopeer::app {
 namespace {
@@ -30,10 +31,10 @@ std::filesystem::path file_to_write(const std::string& given, const std::filesys
 /// Measures this machine's compute table and writes it where runs find it by the name
 /// `this-machine`.
 void calibrate(const CalibrateArguments& arguments) {
-  const std::filesystem::path data = CANOPEER_DATA_DIR;
+  const std::filesystem::path data = shipped_data();
   const std::filesystem::path out = file_to_write(arguments.out, data);
   MissionArguments mission = arguments.mission;
-  if (mission.path.empty()) mission.path = (data / "missions" / "smoke.yaml").string();
+  if (mission.path.empty()) mission.path = "smoke";
   ImportLine line(arguments.quiet);
   StageRequest request = stage_request(mission);
   request.callbacks = callbacks_for_people(line, arguments.quiet);

@@ -99,6 +99,11 @@ struct CalibrateArguments {
   bool quiet = false;
 };
 
+struct DoctorArguments {
+  const RunRegistries* registries = nullptr;
+  bool quick = false;  ///< no self-test
+};
+
 struct RobotCheckArguments {
   std::string robot;
   std::string out;
@@ -110,6 +115,7 @@ struct RobotCheckArguments {
 void run(const RunArguments& arguments);
 void bench(const BenchArguments& arguments);
 void calibrate(const CalibrateArguments& arguments);
+void doctor(const DoctorArguments& arguments);
 void report(const std::string& directory);
 void scene_render(const SceneArguments& arguments);
 void scene_inspect(const SceneArguments& arguments);

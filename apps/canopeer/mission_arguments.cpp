@@ -1,12 +1,13 @@
 #include "mission_arguments.h"
 
 #include "exit_status.h"
+#include "shipped_data.h"
 
 namespace canopeer::app {
 
 StageRequest stage_request(const MissionArguments& arguments, const Overrides& extra) {
   StageRequest request;
-  request.mission = arguments.path;
+  request.mission = mission_file_of(arguments.path);
   for (const auto& setting : arguments.settings) {
     const auto equals = setting.find('=');
     if (equals == std::string::npos || equals == 0) {
@@ -17,7 +18,7 @@ StageRequest stage_request(const MissionArguments& arguments, const Overrides& e
   if (arguments.seed) request.overrides.emplace_back("seed", std::to_string(*arguments.seed));
   request.overrides.insert(request.overrides.end(), extra.begin(), extra.end());
   request.table_dirs = {request.mission.parent_path() / "../compute_tables",
-                        std::filesystem::path(CANOPEER_DATA_DIR) / "compute_tables"};
+                        shipped_data() / "compute_tables"};
   return request;
 }
 

@@ -12,7 +12,10 @@ namespace canopeer::app {
 namespace {
 
 void add_mission(CLI::App& command, MissionArguments& mission) {
-  command.add_option("mission", mission.path, "Mission file (YAML)")->required();
+  command
+      .add_option("mission", mission.path,
+                  "Mission file (YAML), or the name of a shipped one, e.g. scenario_1")
+      ->required();
   command.add_option("--seed", mission.seed, "Seed of everything random");
   command
       .add_option("--set", mission.settings, "Override a setting, dotted.key=value (repeatable)")
@@ -51,7 +54,8 @@ void add_bench(CLI::App& app, BenchArguments& a) {
   CLI::App* command = app.add_subcommand(
       "bench",
       "Compare planners on the same worlds and seeds; the same command goes on after a kill");
-  command->add_option("missions", a.missions, "Mission files (YAML)")->required();
+  command->add_option("missions", a.missions, "Mission files (YAML), or names of shipped ones")
+      ->required();
   command
       ->add_option("--planners", a.planners,
                    "Planners, each as NAME or NAME@COMPUTE-TABLE, separated by commas")
@@ -93,6 +97,13 @@ void add_calibrate(CLI::App& app, CalibrateArguments& a) {
   command->add_option("--out", a.out, "File to write (default: where runs find it by name)");
   command->add_flag("--quiet", a.quiet, "Print errors only");
   command->callback([&a] { calibrate(a); });
+}
+
+void add_doctor(CLI::App& app, DoctorArguments& a) {
+  CLI::App* command = app.add_subcommand(
+      "doctor", "Say what this machine and this program have, and try the smoke mission");
+  command->add_flag("--quick", a.quick, "No self-test");
+  command->callback([&a] { doctor(a); });
 }
 
 void add_report(CLI::App& app, std::string& directory) {
@@ -285,6 +296,11 @@ int parse_and_run(int argc, char** argv, const RunRegistries& registries) {
   add_map(app, map_arguments);
   RobotCheckArguments robot_arguments;
   add_robot(app, robot_arguments);
+  DoctorArguments doctor_arguments;
+  doctor_arguments.registries = &registries;
+  add_doctor(app, doctor_arguments);
+  app.set_version_flag("--version", std::string("canopeer ") + CANOPEER_VERSION);
+  app.footer("Exit status: 0 done, 1 the run failed, 2 bad usage or input, 130 interrupted.");
   app.add_subcommand("version", "Print the version")->callback([] {
     std::printf("canopeer %s\n", CANOPEER_VERSION);
   });
