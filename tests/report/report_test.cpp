@@ -64,6 +64,22 @@ TEST(Report, WorksWithoutFruitsAndWithoutGroundTruth) {
   EXPECT_FALSE(has(page, "within 20 cm"));
 }
 
+TEST(Report, SaysWhatTheRunWasToldAndWhyItFailed) {
+  const auto dir = std::filesystem::path(testing::TempDir()) / "canopeer_report_told";
+  testing_support::write_synthetic_run(dir, {.interrupted = true});
+  const std::string lines =
+      R"({"steering":{"t_s":12.5,"segment":0,"said":"wait_for_person","by":"trolley","why":"push <it>"}})"
+      "\n"
+      R"({"fault":{"t_s":300.0,"message":"camera: cable pulled"}})"
+      "\n";
+  ASSERT_TRUE(write_file(dir / "record", *read_file(dir / "record") + lines));
+  ASSERT_TRUE(write_report(dir).has_value());
+  const std::string page = *read_file(dir / "report.html");
+  expect_sound(page);
+  EXPECT_TRUE(has(page, "told to wait for person by \u201ctrolley\u201d: push &lt;it&gt;."));
+  EXPECT_TRUE(has(page, "it failed: camera: cable pulled."));
+}
+
 /// As a killed run leaves it: the first part of its record and nothing else.
 std::string page_of_killed_run(std::size_t record_bytes) {
   const auto dir = std::filesystem::path(testing::TempDir()) / "canopeer_report_killed";

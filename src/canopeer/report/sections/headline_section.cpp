@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "canopeer/report/html_parts.h"
 #include "canopeer/report/html_text.h"
 #include "canopeer/report/sections/report_sections.h"
@@ -38,18 +40,23 @@ std::string begun_of_planned(const ReportData& data) {
                           : fmt::format("{} of {} segments", begun, planned);
 }
 
-/// Why the run ended early, and what it was told to do; empty for most.
+/// What the run was told to do, and why it ended early; empty for most.
 std::string interventions(const RunRecord& record) {
-  std::string items;
+  const auto notice = [](const std::string& text) {
+    return "<p class=\"notice\">" + escape_html(text) + "</p>\n";
+  };
+  std::string html;
   for (const SteeringEvent& e : record.steering) {
-    items += fmt::format("<li>{}: {}, said {}{}</li>\n", duration_text(e.t_s), escape_html(e.said),
-                         e.by.empty() ? "by nobody named" : "by " + escape_html(e.by),
-                         e.why.empty() ? "" : ": " + escape_html(e.why));
+    std::string said = e.said;
+    std::replace(said.begin(), said.end(), '_', ' ');
+    html += notice(fmt::format("After {} it was told to {}{}{}.", duration_text(e.t_s), said,
+                               e.by.empty() ? "" : " by \u201c" + e.by + "\u201d",
+                               e.why.empty() ? "" : ": " + e.why));
   }
   for (const FaultEvent& e : record.faults) {
-    items += fmt::format("<li>{}: failed: {}</li>\n", duration_text(e.t_s), escape_html(e.message));
+    html += notice(fmt::format("After {} it failed: {}.", duration_text(e.t_s), e.message));
   }
-  return items.empty() ? items : "<ul class=\"notice\">\n" + items + "</ul>\n";
+  return html;
 }
 
 }  // namespace
