@@ -13,6 +13,10 @@ release=$1
 shift
 root=${CANOPEER_DEBIAN_DIR:-build/debian/$release}
 
+mkdir -p "$(dirname "$root")"
+exec 9>"$root.lock"
+flock -n 9 || fail "another command runs in $root"
+
 if [ ! -d "$root" ]; then
   mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Label: Debian' | head -n 1)
   [ -n "$mirror" ] || fail "apt knows no mirror of Debian here (apt-get update?)"
