@@ -17,6 +17,16 @@ struct Measured {
   std::map<std::string, double> counters{};
 };
 
+/// Whether the run was given up; Google Benchmark 1.8 (Debian 13) says it in another word.
+template <typename Run>
+bool given_up(const Run& run) {
+  if constexpr (requires { run.error_occurred; }) {
+    return run.error_occurred;
+  } else {
+    return run.skipped != 0;
+  }
+}
+
 // Prints like the console reporter and keeps the best repetition of every run.
 class Collector : public benchmark::ConsoleReporter {
  public:
@@ -25,7 +35,7 @@ class Collector : public benchmark::ConsoleReporter {
   void ReportRuns(const std::vector<Run>& runs) override {
     ConsoleReporter::ReportRuns(runs);
     for (const Run& run : runs) {
-      if (run.run_type == Run::RT_Iteration && !run.error_occurred) keep(run);
+      if (run.run_type == Run::RT_Iteration && !given_up(run)) keep(run);
     }
   }
 

@@ -26,6 +26,7 @@ constexpr HeaderOrigin kOrigins[] = {
     {"Eigen/", "libeigen3-dev"},
     {"octomap/", "liboctomap-dev"},
     {"embree3/", "libembree-dev"},
+    {"embree4/", "libembree-dev"},
     {"fcl/", "libfcl-dev"},
     {"ompl/", "libompl-dev"},
     {"kdl/", "liborocos-kdl-dev"},

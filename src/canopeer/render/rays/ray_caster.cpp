@@ -1,12 +1,12 @@
 #include "canopeer/render/rays/ray_caster.h"
 
-#include <embree3/rtcore.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <array>
 #include <cstring>
 
 #include "canopeer/base/check.h"
+#include "canopeer/render/rays/embree.h"
 
 namespace canopeer {
 namespace {
@@ -164,11 +164,7 @@ void RayCaster::closest(std::span<const Ray> rays, std::span<Hit> hits) const {
     packet[i].hit.geomID = RTC_INVALID_GEOMETRY_ID;
     packet[i].hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   }
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect1M(impl_->world.scene, &context, packet.data(), static_cast<unsigned>(rays.size()),
-                 sizeof(RTCRayHit));
+  embree::closest_of_neighbors(impl_->world.scene, {packet.data(), rays.size()});
   for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = impl_->hit_of(packet[i]);
 }
 
@@ -177,10 +173,7 @@ void RayCaster::Impl::occluded(std::span<const Ray> rays, float from, float to,
   CANOPEER_CHECK(rays.size() <= kPacket && blocked.size() == rays.size(), "a packet of rays");
   std::array<RTCRay, kPacket> packet;
   for (std::size_t i = 0; i < rays.size(); ++i) packet[i] = embree_ray(rays[i], from, to);
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1M(world.scene, &context, packet.data(), static_cast<unsigned>(rays.size()),
-                sizeof(RTCRay));
+  embree::occluded(world.scene, {packet.data(), rays.size()});
   for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = packet[i].tfar < 0.0F;
 }
 
