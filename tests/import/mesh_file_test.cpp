@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <string_view>
 
 #include "mesh_writers.h"
 #include "world_files.h"
@@ -33,7 +34,7 @@ std::string error_of(const std::filesystem::path& path) {
   return file ? "" : file.error().message;
 }
 
-const MeshPiece& piece_named(const MeshFile& file, const std::string& material) {
+const MeshPiece& piece_named(const MeshFile& file, std::string_view material) {
   for (const MeshPiece& piece : file.pieces) {
     if (piece.names.material == material) return piece;
   }
