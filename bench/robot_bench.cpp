@@ -12,8 +12,8 @@
 #include <kdl/chainiksolvervel_pinv.hpp>
 
 #include "bench_rows.h"
-#include "canopeer/robot/straight_timing.h"
 #include "canopeer/robot/path_timing.h"
+#include "canopeer/robot/straight_timing.h"
 #include "fcl_world.h"
 #include "glasshouse.h"
 #include "kdl_chain.h"

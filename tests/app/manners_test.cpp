@@ -34,8 +34,8 @@ TEST(Manners, ShippedMissionsGoByTheirNames) {
 TEST(Manners, TheDoctorSaysWhatIsThereAndTriesIt) {
   const auto doctor = test::canopeer({"doctor"});
   EXPECT_EQ(doctor.status, 0) << doctor.err;
-  for (const char* what : {"cores", "GB", "compute table", "vmp", "colour", "simulation",
-                           "scenario_1", "real time"}) {
+  for (const char* what :
+       {"cores", "GB", "compute table", "vmp", "colour", "simulation", "scenario_1", "real time"}) {
     EXPECT_TRUE(has(doctor.out, what)) << what << " in\n" << doctor.out;
   }
   EXPECT_FALSE(has(test::canopeer({"doctor", "--quick"}).out, "self-test"));

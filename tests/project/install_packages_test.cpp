@@ -19,7 +19,7 @@ class Machine {
   /// Lists of packages, each name between blanks.
   Machine(const std::string& packages_file, std::string installed, std::string in_release)
       : installed_(std::move(installed)), in_release_(std::move(in_release)) {
-    std::string name = (fs::temp_directory_path() / "canopeer_packages_XXXXXX").string();
+    std::string name = (fs::temp_directory_path() / "canopeer_packages_").string() + std::string(6, 'X');
     root_ = mkdtemp(name.data());
     fs::create_directories(root_ / "scripts");
     fs::create_directories(root_ / "tools");

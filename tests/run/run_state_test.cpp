@@ -50,7 +50,8 @@ std::string content(const fs::path& file) {
 class RunStateTest : public ::testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
-    directory_ = fs::temp_directory_path() / ("canopeer_run_state_" + GetParam() + std::to_string(getpid()));
+    directory_ =
+        fs::temp_directory_path() / ("canopeer_run_state_" + GetParam() + std::to_string(getpid()));
     fs::remove_all(directory_);
   }
   void TearDown() override { fs::remove_all(directory_); }
