@@ -84,5 +84,18 @@ TEST(Planner, WithoutOverridesItWaitsShowsNothingAndHasNoState) {
   EXPECT_FALSE(planner.restore({}, "").has_value());
 }
 
+TEST(PlannerRegistry, SaysWhoseFactoryMadeNone) {
+  PlannerRegistry planners = PlannerRegistry::built_in();
+  ASSERT_TRUE(planners
+                  .add("ghost", "",
+                       [](const PlannerOptions&) -> Expected<std::unique_ptr<Planner>> {
+                         return std::unique_ptr<Planner>();
+                       })
+                  .has_value());
+  const auto made = planners.make("ghost", {});
+  ASSERT_FALSE(made.has_value());
+  EXPECT_NE(made.error().message.find("planner 'ghost'"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace canopeer

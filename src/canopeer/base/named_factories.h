@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "canopeer/base/check.h"
 #include "canopeer/base/expected.h"
 
 namespace canopeer {
@@ -49,6 +50,13 @@ class NamedFactories {
     std::string known;
     for (const Entry& e : entries_) known += (known.empty() ? "" : ", ") + e.name;
     return fail("unknown " + kind_ + " '" + std::string(name) + "'; there is: " + known);
+  }
+
+ protected:
+  /// Adds one of the library's own.
+  void put(const char* name, const char* one_line, Factory factory) {
+    const auto added = add(name, one_line, std::move(factory));
+    CANOPEER_CHECK(added.has_value(), "built-in names are good and differ");
   }
 
  private:

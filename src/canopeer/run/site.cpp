@@ -1,15 +1,13 @@
 #include "canopeer/run/site.h"
 
-#include "canopeer/base/check.h"
 #include "canopeer/run/simulation_site.h"
 
 namespace canopeer {
 
 SiteRegistry SiteRegistry::built_in() {
   SiteRegistry sites;
-  const auto ok = sites.add("simulation", "the glasshouse of the mission's world, in this process",
-                            make_simulation_site);
-  CANOPEER_CHECK(ok.has_value(), "names differ");
+  sites.put("simulation", "the glasshouse of the mission's world, in this process",
+            make_simulation_site);
   return sites;
 }
 
