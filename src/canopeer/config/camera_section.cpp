@@ -1,13 +1,12 @@
 #include "canopeer/config/camera_section.h"
 
-#include <numbers>
 
 #include "canopeer/config/robot_file.h"
+#include "canopeer/geometry/angles.h"
 
 namespace canopeer {
 namespace {
 
-constexpr double kRad = std::numbers::pi / 180.0;
 
 /// Field of view and depth range at 640 × 480. D400 family data sheet: the D435 has 75° × 62° at
 /// this size and no depth nearer than 0.175 m; of the D405 the middle 640 of 848 columns with 84°.
@@ -27,7 +26,7 @@ void read_intrinsics(YamlMap& camera, CameraIntrinsics& k) {
       preset_of(camera.choice("preset", "paper", {"paper", "d435", "d405"}));
   const int width = camera.integer("width_px", 640, 16, 8192);
   const int height = camera.integer("height_px", 480, 16, 8192);
-  const double fov = camera.number("fov_x_deg", preset.fov_x_deg, {1.0, 170.0}) * kRad;
+  const double fov = camera.number("fov_x_deg", preset.fov_x_deg, {1.0, 170.0}) * kDegree;
   k = CameraIntrinsics::from_fov(width, height, fov);
   constexpr double kMost = 1e5;
   k.fx = camera.number("fx_px", k.fx, {1.0, kMost});
@@ -76,7 +75,7 @@ void read_camera(YamlMap camera, MissionFile& mission) {
   if (camera.has("mounting")) mission.T_frame_camera = read_pose(camera.map("mounting"));
   RgbdSensorOptions& sensor = simulation.sensor;
   sensor.hand_eye_translation_m = camera.number("hand_eye_error_m", 0.0, {0.0, 0.2});
-  sensor.hand_eye_rotation_rad = camera.number("hand_eye_error_deg", 0.0, {0.0, 45.0}) * kRad;
+  sensor.hand_eye_rotation_rad = camera.number("hand_eye_error_deg", 0.0, {0.0, 45.0}) * kDegree;
 }
 
 void read_noise(YamlMap& file, RgbdSensorOptions& sensor) {

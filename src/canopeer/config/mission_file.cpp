@@ -1,7 +1,6 @@
 #include "canopeer/config/mission_file.h"
 
 #include <map>
-#include <numbers>
 
 #include "canopeer/config/camera_section.h"
 #include "canopeer/config/cost_table_file.h"
@@ -9,13 +8,13 @@
 #include "canopeer/config/fruit_section.h"
 #include "canopeer/config/world_section.h"
 #include "canopeer/config/yaml_reader.h"
+#include "canopeer/geometry/angles.h"
 
 namespace canopeer {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kRad = std::numbers::pi / 180.0;
 
 /// Order per stop: side 1, side 2, the next lift height, side 1, side 2, the next stop.
 void read_segments(YamlMap& file, MissionOptions& mission) {
@@ -84,7 +83,7 @@ void read_graph(YamlMap graph, GraphBuilderOptions& o) {
   o.max_nodes = graph.integer("max_nodes", o.max_nodes, 10, 1000000);
   o.similarity.position_m = graph.number("similar_position_m", o.similarity.position_m, {0.0, 1.0});
   o.similarity.angle_rad =
-      graph.number("similar_angle_deg", o.similarity.angle_rad / kRad, {0.0, 180.0}) * kRad;
+      graph.number("similar_angle_deg", o.similarity.angle_rad / kDegree, {0.0, 180.0}) * kDegree;
 }
 
 void read_search(YamlMap search, VmpOptions& o) {
@@ -96,8 +95,8 @@ void read_search(YamlMap search, VmpOptions& o) {
   p.max_views = search.integer("max_views", p.max_views, 1, 1000);
   p.observe_s = search.number("observe_s", p.observe_s, {0.0, 100.0});
   p.reparent = search.boolean("reparent", p.reparent);
-  p.fan.fov_x_rad = search.number("fan_fov_x_deg", p.fan.fov_x_rad / kRad, {1.0, 170.0}) * kRad;
-  p.fan.fov_y_rad = search.number("fan_fov_y_deg", p.fan.fov_y_rad / kRad, {1.0, 170.0}) * kRad;
+  p.fan.fov_x_rad = search.number("fan_fov_x_deg", p.fan.fov_x_rad / kDegree, {1.0, 170.0}) * kDegree;
+  p.fan.fov_y_rad = search.number("fan_fov_y_deg", p.fan.fov_y_rad / kDegree, {1.0, 170.0}) * kDegree;
   p.fan.columns = search.integer("fan_columns", p.fan.columns, 1, 1000);
   p.fan.rows = search.integer("fan_rows", p.fan.rows, 1, 1000);
   p.fan.max_unknown_m = search.number("max_unknown_m", p.fan.max_unknown_m, {0.01, 10.0});
@@ -127,7 +126,7 @@ void read_rvp(YamlMap rvp, RvpOptions& o) {
 void read_coverage(YamlMap coverage, SerpentineOptions& o) {
   o.spacing_m = coverage.number("spacing_m", o.spacing_m, {0.02, 10.0});
   o.row_distance_m = coverage.number("row_distance_m", o.row_distance_m, {0.0, 10.0});
-  o.tilt_rad = coverage.number("tilt_deg", o.tilt_rad / kRad, {0.0, 85.0}) * kRad;
+  o.tilt_rad = coverage.number("tilt_deg", o.tilt_rad / kDegree, {0.0, 85.0}) * kDegree;
 }
 
 void read_collision(YamlMap collision, CollisionOptions& o) {

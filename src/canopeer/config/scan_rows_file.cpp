@@ -1,16 +1,15 @@
 #include "canopeer/config/scan_rows_file.h"
 
-#include <numbers>
 
 #include "canopeer/config/imported_world.h"
 #include "canopeer/config/yaml_reader.h"
+#include "canopeer/geometry/angles.h"
 
 namespace canopeer {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kRad = std::numbers::pi / 180.0;
 
 ColorRange read_color(YamlMap map) {
   ColorRange range;
@@ -60,8 +59,8 @@ void read_row(YamlMap& row, ScanRowsOptions& options) {
   const double z = row.number("z_m", 0.0, {-100, 100});
   const double spacing = row.required_number("spacing_m", {0.01, 100});
   const int count = row.required_integer("count", 1, 10000);
-  const double yaw = row.number("yaw_deg", 0.0, {-360, 360}) * kRad;
-  const double yaw_step = row.number("yaw_step_deg", 0.0, {-360, 360}) * kRad;
+  const double yaw = row.number("yaw_deg", 0.0, {-360, 360}) * kDegree;
+  const double yaw_step = row.number("yaw_step_deg", 0.0, {-360, 360}) * kDegree;
   std::vector<int> turn;
   for (const std::string& name : row.text_or_texts("scans", {})) {
     turn.push_back(scan_of(row, "scans", name, options.scans));
@@ -79,7 +78,7 @@ void read_plant(YamlMap& plant, ScanRowsOptions& options) {
   placement.position =
       Vec3(plant.required_number("x_m", {-1000, 1000}), plant.required_number("y_m", {-1000, 1000}),
            plant.number("z_m", 0.0, {-100, 100}));
-  placement.yaw_rad = plant.number("yaw_deg", 0.0, {-360, 360}) * kRad;
+  placement.yaw_rad = plant.number("yaw_deg", 0.0, {-360, 360}) * kDegree;
   options.plants.push_back(placement);
 }
 

@@ -1,15 +1,14 @@
 #include "canopeer/config/world_section.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "canopeer/config/imported_world.h"
+#include "canopeer/geometry/angles.h"
 #include "canopeer/scene/worlds.h"
 
 namespace canopeer {
 namespace {
 
-constexpr double kRad = std::numbers::pi / 180.0;
 constexpr int kMostPlants = 20000;
 
 PlantPreset read_plant_preset(YamlMap& map, PlantPreset fallback) {
@@ -29,7 +28,7 @@ void read_plants(YamlMap& world, WorldOptions& options) {
     placement.position =
         Vec3(plant.required_number("x_m", {-100, 100}), plant.required_number("y_m", {-1000, 1000}),
              plant.number("z_m", 0.0, {-10, 10}));
-    placement.yaw_rad = plant.number("yaw_deg", 0.0, {-360, 360}) * kRad;
+    placement.yaw_rad = plant.number("yaw_deg", 0.0, {-360, 360}) * kDegree;
     options.plants.push_back(placement);
   }
 }

@@ -14,10 +14,10 @@ namespace {
 
 constexpr double kPxPerM = 1100.0;
 constexpr double kViewPx = 128.0;  // side of a view; a fruit of 11 cm fits
-constexpr double kTextPx = 66.0;
+constexpr double kTextHeight = 66.0;
 constexpr double kGapPx = 14.0;
 constexpr double kCardWidth = 2.0 * kViewPx + kGapPx;
-constexpr double kCardHeight = kViewPx + kTextPx + kGapPx;
+constexpr double kCardHeight = kViewPx + kTextHeight + kGapPx;
 constexpr std::size_t kMaxPoints = 350;  // shown; more hide each other
 
 using Point2 = Eigen::Vector2d;
@@ -122,7 +122,7 @@ std::string card_svg(const GalleryFruit& fruit, const Point2& corner) {
       "seen, "
       "confidence {5:.2f}</text>\n",
       corner.x(), corner.y() + 29.0, corner.y() + 45.0, volume, 100.0 * e.seen_share, e.confidence);
-  const Point2 views = corner + Point2(0.0, kTextPx - 10.0);
+  const Point2 views = corner + Point2(0.0, kTextHeight - 10.0);
   svg += view_svg(fruit, true, views);
   svg += view_svg(fruit, false, views + Point2(kViewPx + 0.5 * kGapPx, 0.0));
   return svg + "</g>\n";

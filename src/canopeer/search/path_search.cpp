@@ -9,11 +9,11 @@
 namespace canopeer {
 namespace {
 
-struct Queued {
+struct HighestUtilityFirst {
   double utility = 0.0;
   NodeId id{};
   // Highest utility first, then the older node.
-  friend bool operator<(const Queued& a, const Queued& b) {
+  friend bool operator<(const HighestUtilityFirst& a, const HighestUtilityFirst& b) {
     return std::pair(a.utility, b.id) < std::pair(b.utility, a.id);
   }
 };
@@ -32,7 +32,7 @@ ViewPath search_path(ViewGraph& graph, NodeId start, const VoxelMap& map,
                      const PathSearchOptions& options, WorkMeter& work) {
   PathTree tree(graph, start);
   std::vector<bool> expanded(graph.id_count(), false);
-  std::priority_queue<Queued> queue;
+  std::priority_queue<HighestUtilityFirst> queue;
   queue.push({0.0, start});
   NodeId best = start;
   for (int n = 0; n < options.max_expansions && !queue.empty();) {

@@ -25,11 +25,11 @@ struct Reached {
   double gain = 0.0;
 };
 
-struct Queued {
+struct CheapestFirst {
   double cost_rad = 0.0;
   NodeId id{};
   // Lowest cost first, then the older node.
-  friend bool operator<(const Queued& a, const Queued& b) {
+  friend bool operator<(const CheapestFirst& a, const CheapestFirst& b) {
     return std::pair(a.cost_rad, a.id) > std::pair(b.cost_rad, b.id);
   }
 };
@@ -102,7 +102,7 @@ class ReleasedSearch {
   ViewGraph& graph_;
   NodeId start_;
   std::vector<Reached> nodes_;
-  std::priority_queue<Queued> queue_;
+  std::priority_queue<CheapestFirst> queue_;
   VoxelUnion covered_;
 };
 

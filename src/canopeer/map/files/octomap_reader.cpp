@@ -16,7 +16,7 @@ namespace {
 
 using namespace octomap_format;
 
-struct Header {
+struct TreeHeader {
   bool binary = false;
   std::string id;
   std::int64_t nodes = -1;
@@ -25,10 +25,10 @@ struct Header {
   std::string_view data;
 };
 
-Expected<Header> read_header(std::string_view bytes) {
+Expected<TreeHeader> read_tree_header(std::string_view bytes) {
   TextLines lines(bytes);
   const std::string_view first = lines.next().value_or("");
-  Header header;
+  TreeHeader header;
   header.binary = first.starts_with(kBinaryFirstLine);
   if (!header.binary && !first.starts_with(kFullFirstLine)) {
     return fail("not an OctoMap file (the first line must be \"" + std::string(kFullFirstLine) +
@@ -87,7 +87,7 @@ class VoxelSink {
 // one, and recurses as deep as damaged bytes tell it.
 class TreeReader {
  public:
-  TreeReader(const Header& header, VoxelSink sink)
+  TreeReader(const TreeHeader& header, VoxelSink sink)
       : data_(header.data), header_(header), sink_(sink) {
     // Real trees average a few voxels a node. A small file may fill 256³ voxels, a larger one 16³ a
     // node, none more than 2^31 (6 GB of map).
@@ -167,7 +167,7 @@ class TreeReader {
   }
 
   std::string_view data_;
-  const Header& header_;
+  const TreeHeader& header_;
   VoxelSink sink_;
   std::int64_t max_voxels_ = 0;
   std::int64_t voxels_ = 0;
@@ -181,7 +181,7 @@ bool is_octomap(std::string_view bytes) {
 }
 
 Expected<VoxelMap> parse_octomap(std::string_view bytes, VoxelMapOptions options) {
-  const auto header = read_header(bytes);
+  const auto header = read_tree_header(bytes);
   if (!header) return tl::unexpected(header.error());
   options.resolution_m = header->resolution_m;
   if (const auto valid = options.validate(); !valid) return tl::unexpected(valid.error());
@@ -192,7 +192,7 @@ Expected<VoxelMap> parse_octomap(std::string_view bytes, VoxelMapOptions options
 }
 
 Expected<void> parse_octomap_roi(std::string_view bytes, VoxelMap& map) {
-  const auto header = read_header(bytes);
+  const auto header = read_tree_header(bytes);
   if (!header) return tl::unexpected(header.error());
   if (header->resolution_m != map.resolution_m()) {
     return fail("its resolution is " + std::to_string(header->resolution_m) +

@@ -1,13 +1,11 @@
 #include "canopeer/robot/ik/closed_form_ik.h"
 
-#include <numbers>
-
 #include "canopeer/base/check.h"
+#include "canopeer/geometry/angles.h"
 
 namespace canopeer {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kOnAxis = 1e-7;    // metres or sine: the camera looks along the last axis
 constexpr double kSame = 1e-9;      // configurations nearer to each other than this are one
 constexpr int kSamplesOfALead = 9;  // positions of a rail, evenly spread over its length

@@ -1,16 +1,15 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include "canopeer/geometry/angles.h"
 #include "canopeer/robot/ik/axis_geometry.h"
 #include "canopeer/robot/ik/closed_form_ik.h"
 
 namespace canopeer {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kSingularWristSine = 1e-7;  // below this, θ6 is not determined by the pose
+constexpr double kSingularSine5 = 1e-7;  // below this, θ6 is not determined by the pose
 
 using Axis = RobotModel::AxisLine;
 
@@ -107,7 +106,7 @@ int UrForm::branches(const Pose& T_base_camera, double last_reference,
     const Vec3 z1(s1, -c1, 0.0);
     const Vec3 z1_in_6 = T_0_6.linear().transpose() * z1;  // (s5 c6, −s5 s6, c5)
     const double sine_5 = std::hypot(z1_in_6.x(), z1_in_6.y());
-    const bool singular = sine_5 < kSingularWristSine;
+    const bool singular = sine_5 < kSingularSine5;
     const double bent_wrist = std::atan2(sine_5, z1_in_6.z());
     for (const double side : {1.0, -1.0}) {
       theta[4] = side * bent_wrist;

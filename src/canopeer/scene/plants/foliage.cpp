@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "canopeer/geometry/angles.h"
 #include "canopeer/scene/plants/statistics.h"
 
 namespace canopeer {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180.0;
 constexpr double kPairedTop = 0.16;  // below the tip, two leaves a node
 constexpr double kBladeArea = 0.73;  // of length · width
 

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "canopeer/geometry/angles.h"
 #include "canopeer/scene/plants/statistics.h"
 
 namespace canopeer {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kRings = 22;  // between the poles
 constexpr int kSides = 32;
 constexpr double kBlockiness = 1.0;  // exponent of the profile: 1 is an ellipse, 0 a rectangle

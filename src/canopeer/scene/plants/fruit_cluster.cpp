@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "canopeer/base/check.h"
+#include "canopeer/geometry/angles.h"
 #include "canopeer/scene/plants/canopy_cover.h"
 #include "canopeer/scene/plants/statistics.h"
 
 namespace canopeer {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180.0;
 constexpr double kSpacing = 0.069;          // nearest neighbours' centres
 constexpr double kPedicelAboveTop = 0.012;  // where it leaves the shoot
 constexpr double kPedicelRadius = 0.0027;

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "canopeer/geometry/angles.h"
 #include "canopeer/scene/plants/statistics.h"
 #include "canopeer/scene/plants/tube.h"
 
 namespace canopeer {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180.0;
 constexpr int kAlong = 10;  // quads along the blade
 constexpr int kAcross = 6;  // and across it, even: one edge is the midrib
 

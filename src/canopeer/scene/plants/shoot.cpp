@@ -4,15 +4,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "canopeer/base/check.h"
+#include "canopeer/geometry/angles.h"
 #include "canopeer/scene/plants/statistics.h"
 
 namespace canopeer {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kStep = 0.015;  // between axis points
 constexpr double kTipRadius = 0.0005;
 constexpr double kForkTipRise = 0.05;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "canopeer/geometry/angles.h"
 #include "canopeer/scene/flat_faces.h"
 #include "canopeer/scene/plants/leaf.h"
 #include "canopeer/scene/plants/plant_colors.h"
@@ -11,7 +11,6 @@
 namespace canopeer {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr Rgb kClipRed{190, 34, 38};
 constexpr Rgb kDryLeaf{122, 70, 38};
 constexpr Rgb kLabelPink{222, 118, 140};
