@@ -59,7 +59,6 @@ function(canopeer_test name)
   add_executable(${name}_test ${T_SOURCES})
   target_link_libraries(${name}_test PRIVATE ${T_LIBS} GTest::gtest GTest::gtest_main canopeer_warnings)
   target_include_directories(${name}_test SYSTEM PRIVATE ${T_SYSTEM})
-  canopeer_compile_together(${name}_test)
   # The work is done in the libraries; tests should compile fast.
   target_compile_options(${name}_test PRIVATE $<$<CONFIG:Release>:-O1>)
   target_compile_definitions(${name}_test PRIVATE CANOPEER_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
