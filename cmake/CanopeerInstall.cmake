@@ -35,3 +35,8 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/cmake/canopeerConfigVersi
 install(FILES ${PROJECT_BINARY_DIR}/cmake/canopeerConfig.cmake ${PROJECT_BINARY_DIR}/cmake/canopeerConfigVersion.cmake
         DESTINATION ${config_dir} COMPONENT development)
 install(EXPORT canopeerTargets NAMESPACE canopeer:: DESTINATION ${config_dir} COMPONENT development)
+
+option(CANOPEER_PACKAGES "Prepare Debian packages (scripts/package.sh)" OFF)
+if(CANOPEER_PACKAGES)
+  include(CanopeerPackages)
+endif()

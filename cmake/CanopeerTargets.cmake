@@ -45,10 +45,6 @@ endfunction()
 # canopeer_installed_library(<target> <name>) has a library installed as canopeer::<name>.
 function(canopeer_installed_library target name)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
-  # Inline functions of our headers give the same sums in other people's programs; Eigen's values lie as in our libraries.
-  target_compile_features(${target} INTERFACE $<INSTALL_INTERFACE:cxx_std_20>)
-  target_compile_options(${target} INTERFACE $<INSTALL_INTERFACE:-ffp-contract=off>)
-  target_compile_definitions(${target} INTERFACE $<INSTALL_INTERFACE:EIGEN_MAX_ALIGN_BYTES=16>)
   set_property(GLOBAL APPEND PROPERTY CANOPEER_LIBRARIES ${target})
 endfunction()
 
