@@ -1,9 +1,12 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "commands.h"
+
+namespace CLI {
+class App;
+}
 
 namespace canopeer::app {
 
