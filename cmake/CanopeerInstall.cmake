@@ -12,10 +12,13 @@ install(FILES ${completion}/canopeer.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/b
 install(FILES ${completion}/_canopeer DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)
 install(FILES ${completion}/canopeer.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
         COMPONENT program)
-install(DIRECTORY ${PROJECT_BINARY_DIR}/man/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)
+if(TARGET canopeer_manual)
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/man/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)
+endif()
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
-        FILES_MATCHING PATTERN *.md PATTERN pictures/*.png PATTERN decisions EXCLUDE)
+        FILES_MATCHING PATTERN *.md PATTERN pictures/*.png PATTERN decisions EXCLUDE
+        PATTERN api EXCLUDE)
 
 # The library
 get_property(libraries GLOBAL PROPERTY CANOPEER_LIBRARIES)
