@@ -11,7 +11,7 @@ class App;
 namespace canopeer::app {
 
 inline constexpr const char* kExitStatusText =
-    "Exit status: 0 done, 1 the run failed, 2 bad usage or input, 130 interrupted.";
+    "0 done, 1 the run failed, 2 bad usage or input, 130 interrupted.";
 
 /// A manual page in the language of man(7): of the program where `command` is `app` itself, else of
 /// one of its commands with all that it has below. Everything in it comes from what the command

@@ -324,7 +324,7 @@ int parse_and_run(int argc, char** argv, const RunRegistries& registries) {
   doctor_arguments.registries = &registries;
   add_doctor(app, doctor_arguments);
   app.set_version_flag("--version", std::string("canopeer ") + CANOPEER_VERSION);
-  app.footer(kExitStatusText);
+  app.footer(std::string("Exit status: ") + kExitStatusText);
   ManualArguments manual_arguments;
   add_manual(app, manual_arguments);
   app.add_subcommand("version", "Print the version")->callback([] {
