@@ -25,12 +25,12 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME canopeer)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "view planning for robots that look for fruits
- Canopeer decides where a robot's camera looks next, so that it finds every
- fruit behind the leaves in time. It plans views and motions of an arm, maps
- the fruits it sees, and has a simulated glasshouse inside.
- .
- The missions, robots, worlds and compute tables of the project are in it:
- \"canopeer run scenario_1\" works from any folder.")
+Canopeer decides where a robot's camera looks next, so that it finds every
+fruit behind the leaves in time. It plans views and motions of an arm, maps
+the fruits it sees, and has a simulated glasshouse inside.
+
+The missions, robots, worlds and compute tables of the project are in it, so
+that a mission runs from any folder: canopeer run scenario_1")
 
 # Who links static libraries needs the libraries that these use: packages.txt up to what only tests need.
 file(READ ${PROJECT_SOURCE_DIR}/packages.txt packages)
@@ -44,8 +44,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${packages}")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "canopeer, cmake, g++")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "view planning for robots that look for fruits - library
- Static libraries, headers and CMake files of Canopeer, for planners,
- detectors and robots of your own: find_package(canopeer CONFIG).")
+Static libraries, headers and CMake files of Canopeer, for planners,
+detectors and robots of your own: find_package(canopeer CONFIG).")
 
 # What Debian wants beside each package's files
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)  # SOURCE_DATE_EPOCH, where it is set
