@@ -47,10 +47,17 @@ function(canopeer_module name)
   cmake_parse_arguments(M "" "" "SOURCES;DEPENDS;PRIVATE;SYSTEM" ${ARGN})
   add_library(canopeer_${name} STATIC ${M_SOURCES})
   add_library(canopeer::${name} ALIAS canopeer_${name})
-  target_include_directories(canopeer_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
+  target_include_directories(canopeer_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
   target_include_directories(canopeer_${name} SYSTEM PRIVATE ${M_SYSTEM})
-  target_link_libraries(canopeer_${name} PUBLIC ${M_DEPENDS} PRIVATE ${M_PRIVATE} canopeer_warnings)
+  target_link_libraries(canopeer_${name} PUBLIC ${M_DEPENDS} PRIVATE ${M_PRIVATE} $<BUILD_INTERFACE:canopeer_warnings>)
   canopeer_compile_together(canopeer_${name})
+  canopeer_installed_library(canopeer_${name} ${name})
+endfunction()
+
+# canopeer_installed_library(<target> <name>) has a library installed as canopeer::<name>.
+function(canopeer_installed_library target name)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  set_property(GLOBAL APPEND PROPERTY CANOPEER_LIBRARIES ${target})
 endfunction()
 
 # canopeer_test(<name> SOURCES <file>… LIBS <library>… [SYSTEM <include dir>…]): one test program a module, tests found in it.

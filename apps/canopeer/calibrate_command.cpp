@@ -17,13 +17,16 @@ namespace canopeer::app {
 namespace {
 
 // Measuring takes a while: a folder that cannot be had is said before.
-std::filesystem::path file_to_write(const std::string& given, const std::filesystem::path& data) {
-  if (given.empty()) return data / "compute_tables" / "this-machine.yaml";
-  const std::filesystem::path folder = std::filesystem::path(given).parent_path();
+std::filesystem::path file_to_write(std::filesystem::path file) {
+  if (file.empty()) {
+    if (own_data().empty()) stop_with(kBadInput, {"HOME is not set; say --out FILE"});
+    file = own_data() / "compute_tables" / "this-machine.yaml";
+  }
+  const std::filesystem::path folder = file.parent_path();
   std::error_code code;
   if (!folder.empty()) std::filesystem::create_directories(folder, code);
   if (code) stop_with(kFailed, {folder.string() + ": cannot be made: " + code.message()});
-  return given;
+  return file;
 }
 
 }  // namespace
@@ -31,8 +34,7 @@ std::filesystem::path file_to_write(const std::string& given, const std::filesys
 /// Measures this machine's compute table and writes it where runs find it by the name
 /// `this-machine`.
 void calibrate(const CalibrateArguments& arguments) {
-  const std::filesystem::path data = shipped_data();
-  const std::filesystem::path out = file_to_write(arguments.out, data);
+  const std::filesystem::path out = file_to_write(arguments.out);
   MissionArguments mission = arguments.mission;
   if (mission.path.empty()) mission.path = "smoke";
   ImportLine line(arguments.quiet);

@@ -104,6 +104,11 @@ struct DoctorArguments {
   bool quick = false;  ///< no self-test
 };
 
+struct ManualArguments {
+  std::string command;  ///< empty: the program
+  std::string folder;   ///< write all pages there; empty: print one
+};
+
 struct RobotCheckArguments {
   std::string robot;
   std::string out;

@@ -45,7 +45,7 @@ std::string memory_text() {
 }
 
 std::string own_table_text() {
-  const fs::path own = shipped_data() / "compute_tables" / "this-machine.yaml";
+  const fs::path own = own_data() / "compute_tables" / "this-machine.yaml";
   std::error_code code;
   const auto written = fs::last_write_time(own, code);
   if (code) return "none of this machine; 'canopeer calibrate' measures one in a minute";
@@ -86,6 +86,7 @@ void doctor(const DoctorArguments& arguments) {
   line("processor", std::to_string(std::thread::hardware_concurrency()) + " cores, kernels for " +
                         simd_level_name(best_simd_level()));
   line("memory", memory_text());
+  line("optional parts", "none; all is built in");
   line("files", shipped_data().string());
   line("missions", joined(shipped_missions()));
   line("compute table", own_table_text());
@@ -94,7 +95,11 @@ void doctor(const DoctorArguments& arguments) {
   line("sites", joined(registries.sites.names()));
   std::fflush(stdout);
   if (shipped_missions().empty()) {
-    stop_with(kFailed, {shipped_data().string() + ": has no missions; was the folder moved?"});
+    stop_with(
+        kFailed,
+        {shipped_data().string() +
+         ": has no missions; CANOPEER_DATA may name the folder that holds missions/, robots/ and "
+         "compute_tables/"});
   }
   if (!arguments.quick && !self_test(registries)) throw Stop{kFailed};
 }

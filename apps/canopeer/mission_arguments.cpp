@@ -17,8 +17,9 @@ StageRequest stage_request(const MissionArguments& arguments, const Overrides& e
   }
   if (arguments.seed) request.overrides.emplace_back("seed", std::to_string(*arguments.seed));
   request.overrides.insert(request.overrides.end(), extra.begin(), extra.end());
-  request.table_dirs = {request.mission.parent_path() / "../compute_tables",
-                        shipped_data() / "compute_tables"};
+  request.table_dirs = {request.mission.parent_path() / "../compute_tables"};
+  if (!own_data().empty()) request.table_dirs.push_back(own_data() / "compute_tables");
+  request.table_dirs.push_back(shipped_data() / "compute_tables");
   return request;
 }
 

@@ -6,7 +6,10 @@
 #include <cstdio>
 
 #include "commands.h"
+#include "completion.h"
 #include "exit_status.h"
+#include "manual.h"
+#include "shipped_data.h"
 
 namespace canopeer::app {
 namespace {
@@ -263,8 +266,29 @@ void add_robot(CLI::App& app, RobotCheckArguments& a) {
   check->callback([&a] { robot_check(a); });
 }
 
-/// A program started with one of them closed would take its first file for it.
+void add_manual(CLI::App& app, ManualArguments& a) {
+  CLI::App* command = app.add_subcommand(
+      "manual", "Print the manual page of the program or of a command; read it with man -l -");
+  command->add_option("command", a.command, "The command");
+  command->add_option("--all", a.folder, "Write all pages into this folder, as man1/NAME.1");
+  command->callback([&app, &a] { manual(app, a); });
+}
+
+/// What a shell may offer for the words of an unfinished command line.
+void complete(const CLI::App& app, const RunRegistries& registries,
+              const std::vector<std::string>& words) {
+  CompletionNames names;
+  names.missions = shipped_missions();
+  names.planners = registries.planners.names();
+  names.sites = registries.sites.names();
+  names.compute_tables = {"default", "reference", "free", "this-machine"};
+  for (const std::string& line : completions(app, names, words)) std::printf("%s\n", line.c_str());
+}
+
+/// A program started with one of them closed would take its first file for it. Whole lines go out
+/// at once, so that they stand before what standard error says later.
 void open_standard_streams() {
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
   for (int stream = 0; stream <= 2; ++stream) {
     if (fcntl(stream, F_GETFD) == -1) static_cast<void>(open("/dev/null", O_RDWR));
   }
@@ -300,13 +324,20 @@ int parse_and_run(int argc, char** argv, const RunRegistries& registries) {
   doctor_arguments.registries = &registries;
   add_doctor(app, doctor_arguments);
   app.set_version_flag("--version", std::string("canopeer ") + CANOPEER_VERSION);
-  app.footer("Exit status: 0 done, 1 the run failed, 2 bad usage or input, 130 interrupted.");
+  app.footer(std::string("Exit status: ") + kExitStatusText);
+  ManualArguments manual_arguments;
+  add_manual(app, manual_arguments);
   app.add_subcommand("version", "Print the version")->callback([] {
     std::printf("canopeer %s\n", CANOPEER_VERSION);
   });
+  if (argc > 1 && std::string(argv[1]) == "complete") {
+    complete(app, registries, {argv + 2, argv + argc});
+    return kDone;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    std::fflush(stdout);
     return app.exit(error) == 0 ? kDone : kBadInput;
   }
   return kDone;

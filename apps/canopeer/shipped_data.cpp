@@ -1,6 +1,7 @@
 #include "shipped_data.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <system_error>
 
 #include "exit_status.h"
@@ -9,7 +10,32 @@ namespace canopeer::app {
 
 namespace fs = std::filesystem;
 
-fs::path shipped_data() { return CANOPEER_DATA_DIR; }
+namespace {
+
+/// What an environment variable says; empty when it is not set.
+fs::path path_from_environment(const char* name) {
+  const char* const value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+}  // namespace
+
+fs::path shipped_data() {
+  if (fs::path given = path_from_environment("CANOPEER_DATA"); !given.empty()) return given;
+  std::error_code code;
+  const fs::path program = fs::read_symlink("/proc/self/exe", code);
+  const fs::path beside = program.parent_path() / "../share/canopeer";
+  if (fs::exists(beside / "missions", code)) return fs::canonical(beside, code);
+  return CANOPEER_INSTALLED_DATA;
+}
+
+fs::path own_data() {
+  if (const fs::path data = path_from_environment("XDG_DATA_HOME"); data.is_absolute()) {
+    return data / "canopeer";
+  }
+  const fs::path home = path_from_environment("HOME");
+  return home.empty() ? home : home / ".local/share/canopeer";
+}
 
 std::vector<std::string> shipped_missions() {
   std::vector<std::string> names;

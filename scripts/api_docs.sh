@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# Writes the API pages of the installed headers to build/api/html, with Doxygen. Any warning is an error, also a class
+# without a sentence. Members may go without one: their names say what they are.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+if [ -z "$(command -v doxygen)" ]; then
+  echo "api_docs.sh: needs doxygen (some 25 MB): apt-get install --no-install-recommends doxygen" >&2
+  exit 2
+fi
+rm -rf build/api
+cmake -DTO=build/api/include -P cmake/InstalledHeaders.cmake
+doxygen docs/api/Doxyfile
+if grep -v -E 'Member .* is not documented|^$' build/api/warnings.txt >&2; then exit 1; fi
+echo "build/api/html/index.html"
