@@ -10,6 +10,7 @@
 #include "map_summary.h"
 #include "progress_bar.h"
 #include "recording.h"
+#include "recording_check.h"
 #include "stop_signal.h"
 
 namespace canopeer::app {
@@ -93,6 +94,9 @@ void map_fuse(const MapFuseArguments& arguments) {
   }
   const auto recording = value_or_stop(open_recording(arguments), kBadInput);
   report_gaps(arguments, *recording);
+  for (const std::string& notice : value_or_stop(check_recording(*recording), kBadInput)) {
+    if (!arguments.quiet) std::fprintf(stderr, "canopeer: notice: %s\n", notice.c_str());
+  }
   VoxelMapOptions options;
   options.resolution_m = arguments.resolution_m;
   VoxelMap map(options);
@@ -103,6 +107,9 @@ void map_fuse(const MapFuseArguments& arguments) {
   if (!arguments.quiet) {
     std::printf("frames            %d, %lld points\n", fused.frames,
                 static_cast<long long>(fused.points));
+    if (!recording->poses().taken.empty()) {
+      std::printf("poses             %s\n", recording->poses().taken.c_str());
+    }
     print_map(map);
     for (const auto& file : files) std::printf("%s\n", file.c_str());
   }
@@ -111,6 +118,12 @@ void map_fuse(const MapFuseArguments& arguments) {
                  "canopeer: warning: %s is empty: none of the %d frames of %s has a pixel or point "
                  "with a finite distance\n",
                  arguments.out.c_str(), fused.frames, arguments.dataset.c_str());
+  } else if (!stop && fused.points == 0) {
+    std::fprintf(
+        stderr,
+        "canopeer: warning: %s holds free space only: none of the %d frames of %s has a "
+        "pixel or point within %g m; is the unit right? (see --depth-factor, --max-range)\n",
+        arguments.out.c_str(), fused.frames, arguments.dataset.c_str(), arguments.max_range_m);
   }
   if (stop) {
     std::fprintf(stderr, "canopeer: interrupted; %s holds the first %d frames\n",

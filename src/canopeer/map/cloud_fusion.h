@@ -33,9 +33,9 @@ struct CloudFusionOptions {
 /// Fuses one scan as fuse_exact fuses a frame: every voxel at most once. Voxels that hold an end
 /// point get a hit; of the others, those that a ray crosses before its end get a miss. ROI log-odds
 /// change in voxels with end points that somebody looked at: a hit when one of them is fruit, else
-/// a miss. Points that are not finite or at the origin count for nothing. `roi_confidence` is empty
-/// or as long as `points`; check_placement() holds. In parallel; the result depends neither on the
-/// number of threads nor on the order of the points.
+/// a miss. Points that are not finite, at the origin or beyond 10 km count for nothing.
+/// `roi_confidence` is empty or as long as `points`; check_placement() holds. In parallel; the
+/// result depends neither on the number of threads nor on the order of the points.
 FuseResult fuse_cloud(VoxelMap& map, const CloudScan& scan, const CloudFusionOptions& options = {});
 
 }  // namespace canopeer

@@ -6,6 +6,7 @@
 
 #include "canopeer/base/expected.h"
 #include "canopeer/sensing/cloud_file.h"
+#include "canopeer/sensing/pose_source.h"
 #include "canopeer/sensing/trajectory.h"
 
 namespace canopeer {
@@ -26,6 +27,7 @@ struct CloudFrame {
 struct CloudFolder {
   std::vector<CloudFrame> frames;  ///< sorted by name
   PoseGaps gaps;                   ///< clouds that are no frames
+  PoseSource poses;                ///< its file is empty when the clouds say their poses themselves
 };
 
 /// Finds the `.ply` and `.pcd` files of a folder and their poses. With a trajectory there are two

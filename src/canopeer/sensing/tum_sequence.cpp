@@ -1,11 +1,13 @@
 #include "canopeer/sensing/tum_sequence.h"
 
+#include <algorithm>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include "canopeer/base/atomic_file.h"
 #include "canopeer/sensing/files/timed_files.h"
+#include "canopeer/sensing/pose_check.h"
 
 namespace canopeer {
 namespace {
@@ -78,6 +80,18 @@ Expected<std::vector<AssociatedFiles>> from_lists(const fs::path& directory,
   return all;
 }
 
+/// Poses without time stamps belong to the frames in order; and so do those that are only counted,
+/// when no image was taken in that time. There must be as many.
+bool goes_by_order(const Trajectory& trajectory, const std::vector<AssociatedFiles>& images,
+                   const TumOptions& options) {
+  if (trajectory.poses().size() != images.size()) return false;
+  if (!trajectory.timed()) return true;
+  return trajectory.counts_frames() &&
+         std::none_of(images.begin(), images.end(), [&](const AssociatedFiles& image) {
+           return trajectory.at(image.depth.time_s, options.max_pose_gap_s).has_value();
+         });
+}
+
 }  // namespace
 
 bool is_tum_sequence(const fs::path& directory) {
@@ -95,9 +109,18 @@ Expected<TumSequence> open_tum_sequence(const fs::path& directory, const TumOpti
   if (!trajectory) return tl::unexpected(trajectory.error());
 
   TumSequence sequence;
-  for (const AssociatedFiles& observation : *images) {
+  sequence.poses = {path, trajectory->taken(), trajectory->order_is_said(), {}};
+  const bool by_order = goes_by_order(*trajectory, *images, options);
+  if (!trajectory->timed() && !by_order) {
+    return fail(path.string() + ": has " + std::to_string(trajectory->poses().size()) +
+                " poses without time stamps for " + std::to_string(images->size()) +
+                " depth images; expected one for each");
+  }
+  for (std::size_t i = 0; i < images->size(); ++i) {
+    const AssociatedFiles& observation = (*images)[i];
     const double time_s = observation.depth.time_s;
-    const auto pose = trajectory->at(time_s, options.max_pose_gap_s);
+    const auto pose = by_order ? std::optional<Pose>(trajectory->poses()[i].T_world_camera)
+                               : trajectory->at(time_s, options.max_pose_gap_s);
     if (!pose) {
       sequence.gaps.add(time_s);
       continue;
@@ -110,6 +133,12 @@ Expected<TumSequence> open_tum_sequence(const fs::path& directory, const TumOpti
     }
     sequence.frames.push_back(std::move(frame));
   }
+  if (by_order && trajectory->timed()) {
+    sequence.poses.notices.push_back(path.string() +
+                                     ": the time stamps only count the poses: the n-th was taken "
+                                     "for the n-th depth image");
+  }
+  if (!by_order) add_motion_notice(*trajectory, sequence.poses);
   if (sequence.frames.empty()) {
     return fail(path.string() + ": no depth image has a pose: the trajectory goes from " +
                 std::to_string(trajectory->poses().front().time_s) + " s to " +

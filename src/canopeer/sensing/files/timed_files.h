@@ -22,8 +22,8 @@ struct AssociatedFiles {
   TimedFile color;
 };
 
-/// Lines `timestamp file` (# begins a comment), sorted by time. `name` stands for the list in
-/// errors.
+/// Lines `timestamp file` or `timestamp,file` (# begins a comment), sorted by time. `name` stands
+/// for the list in errors.
 [[nodiscard]] Expected<std::vector<TimedFile>> parse_timed_files(std::string_view text,
                                                                  const std::string& name);
 
