@@ -1,9 +1,11 @@
 #include <oneapi/tbb/global_control.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <future>
 #include <optional>
 
+#include "canopeer/map/cloud_fusion.h"
 #include "canopeer/map/map_file.h"
 #include "commands.h"
 #include "exit_status.h"
@@ -54,7 +56,17 @@ class ReadAhead {
 struct Fused {
   int frames = 0;
   std::int64_t points = 0;
+  std::int64_t absurd = 0;  // points of clouds that no sensor measures
 };
+
+std::int64_t absurd_points(const Observation& observation) {
+  const auto* cloud = std::get_if<PosedCloud>(&observation);
+  if (cloud == nullptr) return 0;
+  const auto& points = cloud->file.cloud.points;
+  return std::count_if(points.begin(), points.end(), [](const Eigen::Vector3f& p) {
+    return p.allFinite() && p.cast<double>().norm() >= kNoReturn_m;
+  });
+}
 
 Fused fuse_all(const MapFuseArguments& arguments, const Recording& recording, VoxelMap& map,
                const std::atomic<bool>& stop) {
@@ -71,6 +83,7 @@ Fused fuse_all(const MapFuseArguments& arguments, const Recording& recording, Vo
     const auto points = fuse_observation(map, observation, fusion);
     if (!points) stop_with(kBadInput, {recording.name(i) + ": " + points.error().message});
     fused.points += *points;
+    fused.absurd += absurd_points(observation);
     ++fused.frames;
     char text[120];
     std::snprintf(text, sizeof text, "frame %d/%zu  %lld points  %lld known voxels", fused.frames,
@@ -112,6 +125,10 @@ void map_fuse(const MapFuseArguments& arguments) {
     }
     print_map(map);
     for (const auto& file : files) std::printf("%s\n", file.c_str());
+  }
+  if (fused.absurd > 0 && !arguments.quiet) {
+    std::fprintf(stderr, "canopeer: notice: left out: %lld points beyond %g m\n",
+                 static_cast<long long>(fused.absurd), kNoReturn_m);
   }
   if (!stop && map.observed_voxels() == 0) {
     std::fprintf(stderr,

@@ -154,7 +154,8 @@ Expected<std::unique_ptr<Recording>> open_recording(const MapFuseArguments& argu
     auto folder =
         open_cloud_folder(directory, {arguments.max_pose_gap_s, fs::path(arguments.trajectory)});
     if (!folder) {
-      return fail(folder.error().message + " (nor a depth.txt or associations.txt was there)");
+      return fail(folder.error().message +
+                  " (nor was depth.txt, associations.txt or a folder depth there)");
     }
     return std::make_unique<CloudRecording>(*std::move(folder));
   }

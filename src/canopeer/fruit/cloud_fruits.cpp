@@ -74,8 +74,11 @@ Expected<void> check_scale(const MeasuredPoints& measured, std::size_t all, int 
                     measured.far, kFarthest_m));
   }
   if (static_cast<int>(points.size()) < min_points) {
-    return fail(fmt::format("only {} finite points{}; a fruit needs {}", points.size(),
-                            measured.at_origin > 0 ? " that are not at 0 0 0" : "", min_points));
+    const std::string origin = measured.at_origin > 0
+                                   ? fmt::format(", {} of them at 0 0 0", measured.at_origin)
+                                   : std::string();
+    return fail(fmt::format("only {} finite points{}; a fruit needs {}",
+                            points.size() + measured.at_origin, origin, min_points));
   }
   Box bounds;
   for (const Vec3& p : points) bounds.extend(p);

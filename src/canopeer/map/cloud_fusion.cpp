@@ -54,9 +54,6 @@ class ScanBlocks {
   std::uint32_t last_ = 0;
 };
 
-// No sensor of a robot measures that far: 1e30 is what some write when nothing came back.
-constexpr double kNoReturn_m = 10000.0;
-
 class ScanFusion {
  public:
   ScanFusion(const CloudScan& scan, const CloudFusionOptions& options, double resolution_m)

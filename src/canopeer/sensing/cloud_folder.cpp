@@ -7,6 +7,7 @@
 
 #include "canopeer/base/text_lines.h"
 #include "canopeer/sensing/files/pose_layout.h"
+#include "canopeer/sensing/files/timed_files.h"
 #include "canopeer/sensing/pose_check.h"
 
 namespace canopeer {
@@ -24,15 +25,6 @@ Expected<std::vector<fs::path>> clouds_in(const fs::path& directory) {
   if (files.empty()) return fail(directory.string() + ": holds no .ply or .pcd files");
   std::sort(files.begin(), files.end());
   return files;
-}
-
-// The folder's own trajectory, or nothing.
-fs::path trajectory_in(const fs::path& directory) {
-  for (const char* name : {"poses.txt", "trajectory.txt", "groundtruth.txt"}) {
-    std::error_code code;
-    if (fs::exists(directory / name, code)) return directory / name;
-  }
-  return {};
 }
 
 // The names as time stamps; nothing when they are other names.
@@ -67,7 +59,7 @@ Expected<CloudFolder> open_cloud_folder(const fs::path& directory,
   const auto& poses = trajectory->poses();
   const auto times = trajectory->timed() ? times_of(*files, *trajectory, options.max_pose_gap_s)
                                          : std::optional<std::vector<double>>();
-  folder.poses = {path, trajectory->taken(), trajectory->order_is_said(), {}};
+  folder.poses = {path, trajectory->taken(), trajectory->order_is_said(), trajectory->notices()};
   if (times) add_motion_notice(*trajectory, folder.poses);
   if (!times && poses.size() != files->size()) {
     return fail(path.string() + ": has " + std::to_string(poses.size()) + " poses for " +

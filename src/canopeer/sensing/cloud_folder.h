@@ -13,7 +13,7 @@ namespace canopeer {
 
 struct CloudFolderOptions {
   double max_pose_gap_s = 0.25;  ///< between the poses before and after a cloud
-  /// Empty: poses.txt, trajectory.txt or groundtruth.txt of the folder, if there is one.
+  /// Empty: the folder's own (poses.txt, trajectory.txt …), if there is one.
   std::filesystem::path trajectory;
 };
 

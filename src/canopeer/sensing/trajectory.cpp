@@ -128,15 +128,26 @@ Expected<Trajectory> Trajectory::parse(std::string_view text, const std::string&
   trajectory.timed_ = layout->time != PoseLayout::kNone;
   trajectory.order_is_said_ = layout->order_is_said();
   trajectory.taken_ = layout->taken;
+  int repeated = 0, first_repeated = 0;
   for (const auto& [number, words] : content.lines) {
     const std::string place = name + ":" + std::to_string(number);
     auto pose = pose_of(words, *layout);
     if (!pose) return fail_in(place, pose.error());
     if (!trajectory.timed_) pose->time_s = static_cast<double>(trajectory.poses_.size());
-    if (!trajectory.poses_.empty() && !(pose->time_s > trajectory.poses_.back().time_s)) {
-      return fail(place + ": the time stamp is not later than the one before; sort the lines");
+    const double after_s = trajectory.poses_.empty() ? -INFINITY : trajectory.poses_.back().time_s;
+    if (pose->time_s == after_s) {
+      if (repeated++ == 0) first_repeated = number;
+      continue;
+    }
+    if (!(pose->time_s > after_s)) {
+      return fail(place + ": the time stamp is earlier than the one before; sort the lines");
     }
     trajectory.poses_.push_back(*pose);
+  }
+  if (repeated > 0) {
+    trajectory.notices_.push_back(name + ":" + std::to_string(first_repeated) + ": " +
+                                  std::to_string(repeated) +
+                                  " poses left out: the pose before has the same time stamp");
   }
   return trajectory;
 }

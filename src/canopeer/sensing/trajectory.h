@@ -29,8 +29,9 @@ struct PoseGaps {
 /// EuRoC, ROS and spreadsheets do; then any order is read. Without names, what a line holds follows
 /// from how many numbers it has: `timestamp tx ty tz qx qy qz qw` (TUM), the same without time
 /// stamps, or the 12 or 16 numbers of a matrix (KITTI). Matrices of 3 or 4 lines (ICL-NUIM's .sim,
-/// Redwood's .log) are read too. Commas and semicolons count as blanks. Time stamps rise; they are
-/// in seconds, or in the unit that a name or their size says.
+/// Redwood's .log) are read too. Commas and semicolons count as blanks. Time stamps do
+/// not fall, and where two are equal the first pose counts; they are in seconds, or in the unit
+/// that a name or their size says.
 class Trajectory {
  public:
   /// The error names file and line, and what was expected there.
@@ -47,6 +48,8 @@ class Trajectory {
   [[nodiscard]] const std::string& taken() const { return taken_; }
   /// Names, or matrices, leave no doubt about the order of a quaternion.
   [[nodiscard]] bool order_is_said() const { return order_is_said_; }
+  /// What was passed over; each names the file.
+  [[nodiscard]] const std::vector<std::string>& notices() const { return notices_; }
   /// The pose at that time, between its neighbours: position linear, rotation along the shortest
   /// arc. Nothing before the first pose, after the last one, and where the neighbours are more than
   /// `max_gap_s` apart.
@@ -55,6 +58,7 @@ class Trajectory {
  private:
   std::vector<TimedPose> poses_;
   std::string taken_;
+  std::vector<std::string> notices_;
   bool timed_ = true;
   bool order_is_said_ = false;
 };

@@ -41,7 +41,7 @@ bool mixes_commas_and_blanks(std::string_view line) {
   split_fields(line, {',', false}, fields);
   bool mixed = false;
   for (const std::string_view field : fields) {
-    const std::vector<std::string_view> words = words_of(field, kAnySeparators);
+    const std::vector<std::string_view> words = words_of(field, kBlanks);
     mixed |= words.size() > 1;
     for (const std::string_view word : words) {
       if (!to_number(word)) return false;

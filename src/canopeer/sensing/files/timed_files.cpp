@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <system_error>
 #include <utility>
 
 #include "canopeer/base/plain_text.h"
@@ -80,6 +81,21 @@ Expected<std::vector<AssociatedFiles>> parse_associations(std::string_view text,
     return a.depth.time_s < b.depth.time_s;
   });
   return all;
+}
+
+std::filesystem::path trajectory_in(const std::filesystem::path& directory,
+                                    std::vector<std::string> names) {
+  for (const char* ending : {".txt", ".csv"}) {
+    for (const char* stem : {"poses", "pose", "trajectory", "groundtruth"}) {
+      names.push_back(std::string(stem) + ending);
+    }
+  }
+  names.emplace_back("trajectory.log");
+  for (const std::string& name : names) {
+    std::error_code code;
+    if (std::filesystem::exists(directory / name, code)) return directory / name;
+  }
+  return {};
 }
 
 std::size_t nearest_in_time(const std::vector<TimedFile>& files, double time_s,

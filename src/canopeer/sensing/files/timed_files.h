@@ -32,6 +32,11 @@ struct AssociatedFiles {
 [[nodiscard]] Expected<std::vector<AssociatedFiles>> parse_associations(std::string_view text,
                                                                         const std::string& name);
 
+/// The trajectory of a recording's folder: the first of `names` that is there, else poses.txt,
+/// pose.txt, trajectory.txt, groundtruth.txt, the same as .csv, or trajectory.log; else empty.
+[[nodiscard]] std::filesystem::path trajectory_in(const std::filesystem::path& directory,
+                                                  std::vector<std::string> names = {});
+
 /// The index of the file nearest in time, or files.size(): none within `max_difference_s`.
 [[nodiscard]] std::size_t nearest_in_time(const std::vector<TimedFile>& files, double time_s,
                                           double max_difference_s);
