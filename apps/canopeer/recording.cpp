@@ -10,6 +10,7 @@
 #include "canopeer/map/cloud_fusion.h"
 #include "canopeer/sensing/depth_file.h"
 #include "canopeer/sensing/png.h"
+#include "canopeer/sensing/pose_check.h"
 #include "canopeer/sensing/tum_sequence.h"
 
 namespace canopeer::app {
@@ -123,15 +124,6 @@ Expected<CameraFile> camera_of(const MapFuseArguments& arguments) {
   }
   if (arguments.depth_units_per_m) camera.depth.per_m = *arguments.depth_units_per_m;
   return camera;
-}
-
-/// The same pose when the y axes of camera and world point the other way: right-handed again.
-Pose mirrored(const Pose& pose) {
-  const Eigen::DiagonalMatrix<double, 3> flip(1.0, -1.0, 1.0);
-  Pose other = Pose::Identity();
-  other.linear() = flip * pose.linear() * flip;
-  other.translation() = flip * pose.translation();
-  return other;
 }
 
 }  // namespace

@@ -105,18 +105,23 @@ Expected<std::vector<std::string>> check_recording(const Recording& recording) {
   if (!pairs) return tl::unexpected(pairs.error());
   const PoseVerdict verdict = judge_poses(*pairs);
   const std::string seen =
-      "of what " + std::to_string(verdict.pairs) + " pairs of frames see in common ";
+      "of what " + std::to_string(verdict.as_read.pairs) + " pairs of frames see in common ";
+  const auto only = [&](const std::string& when, double share, const std::string& advice) {
+    return fail(source.file.string() + ": the poses fit what was seen only when " + when + ": " +
+                seen + percent(share) + " agrees then, and " + percent(verdict.as_read.share) +
+                " as they were read (" + source.taken + "); " + advice);
+  };
   if (verdict.order_is_wrong()) {
-    return fail(source.file.string() +
-                ": the poses fit what was seen only when quaternions are "
-                "read as qw qx qy qz: " +
-                seen + percent(verdict.w_first) + " agrees then, and " + percent(verdict.as_read) +
-                " as they were read (" + source.taken +
-                "); say so in a first line: # timestamp tx ty tz qw qx qy qz");
+    return only("quaternions are read as qw qx qy qz", verdict.w_first.share,
+                "say so in a first line: # timestamp tx ty tz qw qx qy qz");
+  }
+  if (verdict.left_handed()) {
+    return only("they are taken as left-handed", verdict.mirrored.share,
+                "say so by a negative fy_px in the camera file, as ICL-NUIM does");
   }
   if (verdict.poses_are_odd()) {
     notices.push_back(source.file.string() + ": the poses do not fit what was seen: " + seen +
-                      "only " + percent(verdict.as_read) + " agrees (taken: " + source.taken +
+                      "only " + percent(verdict.as_read.share) + " agrees (taken: " + source.taken +
                       "); poses must be those of the sensor's own frame (of a camera: x right, y "
                       "down, z forward) in metres, depth unit and intrinsics must be right");
   }

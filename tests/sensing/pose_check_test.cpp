@@ -50,13 +50,13 @@ Pose pose_at(const Vec3& position, const Vec3& axis, double angle) {
   return pose;
 }
 
-std::vector<FramePair> walk() {
+std::vector<FramePair> walk(double tilt = 0.3) {
   std::vector<FramePair> pairs;
   for (int i = 0; i < 5; ++i) {
     const Vec3 from(-0.5 + 0.1 * i, 0.1 * i, -1.0);
-    const Vec3 axis(0.3, 1.0, 0.1 * i);
+    const Vec3 axis(tilt, 1.0, 0.1 * i);
     pairs.push_back({look(pose_at(from, axis, 0.2 * i)),
-                     look(pose_at(from + Vec3(0.15, 0.0, 0.1), axis, 0.2 * i + 0.2))});
+                     look(pose_at(from + Vec3(0.3, 0.0, 0.1), axis, 0.2 * i + 0.35))});
   }
   return pairs;
 }
@@ -74,8 +74,8 @@ std::vector<FramePair> misread(std::vector<FramePair> pairs) {
 
 TEST(PoseCheck, RightPosesMakeFramesAgree) {
   const PoseVerdict verdict = judge_poses(walk());
-  EXPECT_EQ(verdict.pairs, 5);
-  EXPECT_GT(verdict.as_read, 0.9);
+  EXPECT_EQ(verdict.as_read.pairs, 5);
+  EXPECT_GT(verdict.as_read.share, 0.9);
   EXPECT_FALSE(verdict.order_is_wrong());
   EXPECT_FALSE(verdict.poses_are_odd());
 }
@@ -84,8 +84,24 @@ TEST(PoseCheck, QuaternionsWithWFirstAreFound) {
   const std::vector<FramePair> wrong = misread(walk());
   EXPECT_TRUE(with_w_first(wrong[2].a.T_world_sensor).isApprox(walk()[2].a.T_world_sensor));
   const PoseVerdict verdict = judge_poses(wrong);
-  EXPECT_GT(verdict.w_first, 0.9);
-  EXPECT_TRUE(verdict.order_is_wrong()) << verdict.as_read;
+  EXPECT_GT(verdict.w_first.share, 0.9);
+  EXPECT_TRUE(verdict.order_is_wrong()) << verdict.as_read.share;
+}
+
+TEST(PoseCheck, LeftHandedPosesAreFound) {
+  std::vector<FramePair> pairs = walk(1.5);  // mirrored, a turn about y is the same
+  for (auto& [a, b] : pairs) {
+    for (SeenFrom* seen : {&a, &b}) {
+      const Pose right = seen->T_world_sensor;
+      seen->T_world_sensor = mirrored(right);
+      EXPECT_TRUE(mirrored(seen->T_world_sensor).isApprox(right));
+      EXPECT_NEAR(seen->T_world_sensor.linear().determinant(), 1.0, 1e-12);
+    }
+  }
+  const PoseVerdict verdict = judge_poses(pairs);
+  EXPECT_GT(verdict.mirrored.share, 0.9);
+  EXPECT_TRUE(verdict.left_handed()) << verdict.as_read.share;
+  EXPECT_FALSE(verdict.order_is_wrong());
 }
 
 TEST(PoseCheck, PosesOfAnotherFrameAreOdd) {
@@ -98,26 +114,27 @@ TEST(PoseCheck, PosesOfAnotherFrameAreOdd) {
     }
   }
   const PoseVerdict verdict = judge_poses(pairs);
-  EXPECT_LT(verdict.as_read, 0.8);
+  EXPECT_TRUE(verdict.poses_are_odd()) << verdict.as_read.share;
   EXPECT_FALSE(verdict.order_is_wrong());
+  EXPECT_FALSE(verdict.left_handed());
 }
 
 TEST(PoseCheck, FramesWithoutACommonViewSayNothing) {
   const SeenFrom a = look(pose_at(Vec3::Zero(), Vec3::UnitY(), 0.0));
   const SeenFrom b = look(pose_at(Vec3::Zero(), Vec3::UnitY(), 3.0));
   EXPECT_FALSE(agreement(a, b));
-  EXPECT_EQ(judge_poses({{a, b}}).pairs, 0);
+  EXPECT_EQ(judge_poses({{a, b}}).as_read.pairs, 0);
   EXPECT_FALSE(judge_poses({}).order_is_wrong());
 }
 
 TEST(PoseCheck, PairsLieALittleApart) {
   std::vector<Pose> poses;
-  for (int i = 0; i < 100; ++i) {
-    poses.push_back(pose_at(Vec3(0.01 * i, 0, 0), Vec3::UnitY(), 0.01 * i));
+  for (int i = 0; i < 120; ++i) {
+    poses.push_back(pose_at(Vec3(0.0101 * i, 0, 0), Vec3::UnitY(), 0.0001 * i));
   }
   const auto pairs = pairs_to_compare(poses, 5);
   ASSERT_EQ(pairs.size(), 5U);
-  for (const auto& [a, b] : pairs) EXPECT_EQ(b - a, 12U);
+  for (const auto& [a, b] : pairs) EXPECT_EQ(b - a, 20U);
   EXPECT_TRUE(pairs_to_compare({Pose::Identity(), Pose::Identity()}, 5).empty());
 }
 

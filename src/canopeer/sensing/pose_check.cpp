@@ -11,10 +11,10 @@ namespace canopeer {
 namespace {
 
 constexpr double kCell_rad = 1.5 * std::numbers::pi / 180.0;
-constexpr double kTolerance = 0.05;    // of the distance
-constexpr double kTolerance_m = 0.03;  // and this
+constexpr double kTolerance = 0.02;    // of the distance
+constexpr double kTolerance_m = 0.02;  // and this
 constexpr int kMinShared = 60;         // points that two frames have in common
-constexpr double kMinShare = 0.05;     // of those of one
+constexpr double kMinShare = 0.02;     // of those of one
 
 /// How far the surface is in each direction: the nearest and the farthest point of each cell.
 class RangeMap {
@@ -90,28 +90,34 @@ Pose with_w_first(const Pose& pose) {
   return other;
 }
 
+Pose mirrored(const Pose& pose) {
+  const Eigen::DiagonalMatrix<double, 3> flip(1.0, -1.0, 1.0);
+  Pose other = Pose::Identity();
+  other.linear() = flip * pose.linear() * flip;
+  other.translation() = flip * pose.translation();
+  return other;
+}
+
 PoseVerdict judge_poses(const std::vector<FramePair>& pairs) {
-  PoseVerdict verdict;
-  for (const auto& [a, b] : pairs) {
-    const auto as_read = agreement(a, b);
-    const auto w_first = agreement({a.points, with_w_first(a.T_world_sensor)},
-                                   {b.points, with_w_first(b.T_world_sensor)});
-    if (!as_read || !w_first) continue;
-    ++verdict.pairs;
-    verdict.as_read += *as_read;
-    verdict.w_first += *w_first;
-  }
-  if (verdict.pairs > 0) {
-    verdict.as_read /= verdict.pairs;
-    verdict.w_first /= verdict.pairs;
-  }
-  return verdict;
+  const auto under = [&](const auto& meaning) {
+    PairAgreement mean;
+    for (const auto& [a, b] : pairs) {
+      const auto share =
+          agreement({a.points, meaning(a.T_world_sensor)}, {b.points, meaning(b.T_world_sensor)});
+      if (!share) continue;
+      ++mean.pairs;
+      mean.share += *share;
+    }
+    if (mean.pairs > 0) mean.share /= mean.pairs;
+    return mean;
+  };
+  return {under([](const Pose& pose) { return pose; }), under(with_w_first), under(mirrored)};
 }
 
 std::vector<std::pair<std::size_t, std::size_t>> pairs_to_compare(const std::vector<Pose>& poses,
                                                                   int count) {
-  constexpr double kMinAngle = 0.12, kMaxAngle = 0.5;  // rad
-  constexpr double kMinWay_m = 0.15, kMaxWay_m = 1.0;
+  constexpr double kMinAngle = 0.2, kMaxAngle = 0.6;  // rad
+  constexpr double kMinWay_m = 0.2, kMaxWay_m = 1.0;
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   const std::size_t step = std::max<std::size_t>(1, poses.size() / static_cast<std::size_t>(count));
   for (std::size_t a = 0; a < poses.size(); a += step) {

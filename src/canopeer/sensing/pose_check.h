@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "canopeer/geometry/pose.h"
@@ -26,23 +27,41 @@ struct FramePair {
   SeenFrom a, b;
 };
 
-/// Whether the pairs look alike under the poses, and if the quaternions were read as qw qx qy qz.
-struct PoseVerdict {
-  int pairs = 0;  ///< that tell something under both
-  double as_read = 0.0;
-  double w_first = 0.0;
+/// How far pairs of frames agree, on average.
+struct PairAgreement {
+  int pairs = 0;       ///< that tell something
+  double share = 0.0;  ///< 0 … 1
+};
 
-  /// The poses only make sense with qw first.
+/// How far the pairs agree under the poses, and under what the poses may mean instead.
+struct PoseVerdict {
+  PairAgreement as_read;
+  PairAgreement w_first;   ///< see with_w_first()
+  PairAgreement mirrored;  ///< see mirrored()
+
   [[nodiscard]] bool order_is_wrong() const {
-    return pairs >= 2 && as_read < 0.5 && w_first > 0.7 && w_first - as_read > 0.3;
+    return only(w_first) && w_first.share >= mirrored.share;
+  }
+  [[nodiscard]] bool left_handed() const {
+    return only(mirrored) && mirrored.share > w_first.share;
   }
   /// The poses make no sense.
-  [[nodiscard]] bool poses_are_odd() const { return pairs >= 2 && as_read < 0.35; }
+  [[nodiscard]] bool poses_are_odd() const { return as_read.pairs >= 2 && as_read.share < 0.45; }
+
+ private:
+  [[nodiscard]] bool only(const PairAgreement& other) const {
+    return as_read.pairs >= 2 && other.pairs >= 2 && as_read.share < 0.65 && other.share > 0.75 &&
+           other.share - as_read.share > 0.25;
+  }
 };
 [[nodiscard]] PoseVerdict judge_poses(const std::vector<FramePair>& pairs);
 
 /// The rotation that a quaternion written as qw qx qy qz has, when it was read as qx qy qz qw.
 [[nodiscard]] Pose with_w_first(const Pose& pose);
+
+/// The pose when the y axes of sensor and world point the other way: a left-handed pose (of a
+/// renderer whose camera has y up) becomes a right-handed one.
+[[nodiscard]] Pose mirrored(const Pose& pose);
 
 /// Indices of up to `count` pairs of frames, spread over the recording, that lie a hand's breadth
 /// or some ten degrees apart, so that both see something in common and a wrong pose shows.
