@@ -96,11 +96,11 @@ report() {
     recording) run_limited map fuse "${file%/*}" --out "$out.ot" --resolution 0.05 ;;
   esac 2>/dev/null # where the shell says that a process was killed
   case $status in
-    read) line=$(grep -a . "$work/out" | head -n 1) ;;
+    read) line=$(grep -ahE '^imported' "$work/err" || grep -a . "$work/out" | head -n 1) ;;
     faulty) line=$(grep -ahE 'wrong:|^canopeer:' "$work/out" "$work/err" | head -n 1) ;;
     *) line=$(grep -a '^canopeer:' "$work/err" | tail -n 1) ;;
   esac
-  line=$(printf '%s' "${line#canopeer: }" | tr -s ' ')
+  line=$(printf '%s' "${line#canopeer: }" | tr '\r\n' '  ' | tr -s ' ')
   notices=$(grep -ac '^canopeer: \(notice\|warning\|passed over\)' "$work/err")
   [ "$notices" -eq 0 ] || line="$line; $notices notice(s)"
   case $status in read | faulty | refused) ;; *) bad=1 ;; esac

@@ -126,8 +126,10 @@ TEST(FitCloud, SaysWhyThereIsNothingToFit) {
   nan.points.assign(100, Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
   EXPECT_NE(message_for(nan).find("none of the 100 points is finite"), std::string::npos);
   PointCloud few;
-  few.points.assign(3, Eigen::Vector3f::Zero());
+  few.points.assign(3, Eigen::Vector3f::Ones());
   EXPECT_NE(message_for(few).find("only 3"), std::string::npos);
+  few.points.push_back(Eigen::Vector3f::Constant(1e9F));
+  EXPECT_NE(message_for(few).find("only 3 of 4 finite points"), std::string::npos);
   for (const float scale : {1000.0F, 0.01F}) {
     PointCloud scaled = three_fruits(false);
     for (auto& p : scaled.points) p *= scale;

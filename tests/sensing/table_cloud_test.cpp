@@ -131,6 +131,9 @@ TEST(TableCloud, ErrorsSayWhereAndWhatToDo) {
   expect_in("a.csv:3: expected 3 values, found 2", error_of("x,y,z\n1,2,3\n1,2\n"));
   expect_in("separate the columns by semicolons", error_of("x,y,z\n0,51,0,17,1,06\n"));
   expect_in("separate the columns by semicolons", error_of("0,51,0,17,1,06\n0,52,0,18,1,07\n"));
+  expect_in("separate the columns by semicolons", error_of("1,5100,1,1700,1,6000\n"));
+  EXPECT_EQ(parsed("515,178,1067,200,40,100\n").cloud.points.at(0),
+            Eigen::Vector3f(515, 178, 1067));
   expect_in("holds 2 of the 3 points", error_of("3\n1 2 3\n4 5 6\n"));
   expect_in("no text", error_of(std::string("x,y,z\n1,2,3\0\n", 13)));
   expect_in("expected columns", error_of(""));

@@ -112,6 +112,11 @@ TEST(Trajectory, ColumnsAreTakenByTheirNames) {
       "field.pose.orientation.z,field.pose.orientation.w\n"
       "7,1,1000000000,map,1,2,3,0.7071068,0,0,0.7071068\n"
       "8,2,2000000000,map,1.5,2,3,0.7071068,0,0,0.7071068\n");
+  EXPECT_NE(Trajectory::parse("%time,field.header.stamp,field.x,field.y,field.z,field.qx,field.qy,"
+                              "field.qz,field.qw\n9,2500000000,0,0,0,0,0,0,1\n",
+                              "t")
+                ->at(2.5, 1.0),
+            std::nullopt);
   EXPECT_NE(message("time,x,y,z,roll,pitch,yaw\n1,2,3,4,0,0,0\n").find("poses.txt:1: names no"),
             std::string::npos);
 }

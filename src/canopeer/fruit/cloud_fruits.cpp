@@ -67,18 +67,19 @@ Expected<void> check_scale(const MeasuredPoints& measured, std::size_t all, int 
   const std::vector<Vec3>& points = measured.points;
   if (all == 0) return fail("the cloud is empty");
   if (measured.not_finite == all) return fail(fmt::format("none of the {} points is finite", all));
-  if (measured.far > kMaxFarShare * static_cast<double>(points.size())) {
+  if (static_cast<double>(measured.far) > kMaxFarShare * static_cast<double>(points.size())) {
     return fail(
         fmt::format("coordinates of {} points beyond {:.0f} m: are they in metres, about a nearby "
                     "origin? (see --unit)",
                     measured.far, kFarthest_m));
   }
   if (static_cast<int>(points.size()) < min_points) {
-    const std::string origin = measured.at_origin > 0
-                                   ? fmt::format(", {} of them at 0 0 0", measured.at_origin)
-                                   : std::string();
-    return fail(fmt::format("only {} finite points{}; a fruit needs {}",
-                            points.size() + measured.at_origin, origin, min_points));
+    std::string usable = fmt::format("only {} finite points", points.size());
+    if (const std::size_t strays = measured.nowhere + measured.far + measured.at_origin) {
+      usable = fmt::format("only {} of {} finite points are neither at 0 0 0 nor beyond {:.0f} m",
+                           points.size(), points.size() + strays, kFarthest_m);
+    }
+    return fail(fmt::format("{}; a fruit needs {}", usable, min_points));
   }
   Box bounds;
   for (const Vec3& p : points) bounds.extend(p);

@@ -60,7 +60,7 @@ TEST(FieldReport, NamesWhatIsReadAndWhatIsRefused) {
   const test::TemporaryDirectory directory;
   const fs::path folder = directory / "field";
   fs::create_directories(folder / "good");
-  fs::create_directories(folder / "bad");
+  fs::create_directories(folder / "bad/room");
   const auto write = [&](const std::string& name, const std::string& text) {
     ASSERT_TRUE(write_file(folder / name, text)) << name;
   };

@@ -151,15 +151,18 @@ class TableParser {
     return {};
   }
 
-  /// 0,51568,0,17767,1,06709: no whole number begins with a zero.
+  /// 0,51568,0,17767,1,06709: a whole number begins with a zero, or each second one has as many
+  /// digits, more than a colour has.
   [[nodiscard]] bool looks_like_decimal_commas(const Fields& fields) const {
     if (dialect_.separator != ',' || fields.size() < 6 || fields.size() % 2 != 0) return false;
-    bool leading_zero = false;
+    bool leading_zero = false, as_long = fields[1].size() > 3;
     for (std::size_t i = 0; i < fields.size(); ++i) {
       if (fields[i].find('.') != std::string_view::npos) return false;
-      leading_zero |= i % 2 == 1 && fields[i].size() > 1 && fields[i][0] == '0';
+      if (i % 2 == 0) continue;
+      leading_zero |= fields[i].size() > 1 && fields[i][0] == '0';
+      as_long &= fields[i].size() == fields[1].size();
     }
-    return leading_zero;
+    return leading_zero || as_long;
   }
 
   Expected<void> read_rows() {

@@ -152,8 +152,11 @@ std::optional<PoseLayout> layout_of_head(const Words& names) {
     const NameParts name = parts_of(names[i]);
     if (name.parts.empty() || find_axis(name, i, found)) continue;
     const auto unit = time_unit(name);
-    // ROS has %time, the time of writing, before the message's own stamp.
-    if (unit && (layout.time == PoseLayout::kNone || name.parts.back() == "stamp")) {
+    // rostopic has %time, the time of writing, before the message's own stamp; both in nanoseconds.
+    if (name.parts.front() == "field" && unit) {
+      layout.time = i;
+      layout.time_unit_s = 1e-9;
+    } else if (unit && (layout.time == PoseLayout::kNone || name.parts.back() == "stamp")) {
       layout.time = i;
       layout.time_unit_s = *unit;
     }
