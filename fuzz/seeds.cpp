@@ -40,9 +40,17 @@ bool write_all(const fs::path& root) {
       write_file(root / "cloud/binary.pcd", std::string(kPcdHeader) + "binary\n" + twenty),
       write_file(root / "cloud/packed.pcd",
                  std::string(kPcdHeader) + "binary_compressed\n" + packed),
+      write_file(root / "cloud/table.csv", "\xEF\xBB\xBFx;y;z;rgb\n0,5;1;\"2\";#ff0000\n"),
+      write_file(root / "cloud/table.pts", "2\n1 2 3 40 255 0 0\n2 3 4 40 255 0 0\n"),
       write_depth_png(root / "png/depth.png", depth, 5000.0),
+      write_file(root / "png/binary.pgm", "P5\n2 1\n65535\nabcd"),
+      write_file(root / "png/text.pgm", "P2 # mm\n2 1\n65535\n1500 65535\n"),
       write_png(root / "png/color.png", ColorImage(7, 5)),
       write_file(root / "trajectory/poses.txt", "# t\n0 1 2 3 0 0 0 1\n1.5 1 2 3 0 0 1 0\n"),
+      write_file(root / "trajectory/euroc.csv",
+                 "#timestamp [ns], p_x [m], p_y [m], p_z [m], q_w [], q_x [], q_y [], q_z []\n"
+                 "1000000000,1,2,3,1,0,0,0\n"),
+      write_file(root / "trajectory/matrices.log", "0 0 1\n1 0 0 1\n0 1 0 2\n0 0 1 3\n0 0 0 1\n"),
       write_file(root / "trajectory/list.txt", "1.25 depth/a.png\n"),
       write_file(root / "trajectory/pairs.txt", "1.25 depth/a.png 1.26 rgb/a.png\n")};
   for (const auto& result : results) {

@@ -2,6 +2,7 @@
 #include <cstdint>
 
 #include "canopeer/sensing/files/timed_files.h"
+#include "canopeer/sensing/pose_check.h"
 #include "canopeer/sensing/trajectory.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -10,6 +11,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const double first_s = trajectory->poses().front().time_s;
     const double last_s = trajectory->poses().back().time_s;
     (void)trajectory->at(0.5 * (first_s + last_s), 1.0);
+    canopeer::PoseSource source;
+    canopeer::add_motion_notice(*trajectory, source);
   }
   if (const auto files = canopeer::parse_timed_files(text, "fuzz")) {
     (void)canopeer::nearest_in_time(*files, 1.0, 0.5);

@@ -100,14 +100,21 @@ void fruit_fit(const FruitFitArguments& arguments) {
   options.upright = !arguments.any_pose;
   Expected<CloudFruits> fitted = fit_cloud(file.cloud, options, viewpoint);
   if (!fitted) stop_with(kBadInput, {arguments.cloud + ": " + fitted.error().message});
+  for (const auto* notices : {&file.notices, &fitted->notices}) {
+    for (const std::string& notice : *notices) {
+      std::fprintf(stderr, "canopeer: notice: %s\n", notice.c_str());
+    }
+  }
   keep_likely(*fitted, arguments.min_confidence);
   value_or_stop(write_all(arguments.out, *fitted), kFailed);
   std::printf("fruits            %zu in %zu points\n", fitted->fruits.size(),
               file.cloud.points.size());
   for (const FruitEstimate& f : fitted->fruits) {
-    std::printf("  %3d  at %.3f %.3f %.3f m  %.0f ± %.0f cm³  %.0f %% seen  confidence %.2f\n",
+    const bool told = f.ripeness != PixelLabel::background;
+    std::printf("  %3d  at %.3f %.3f %.3f m  %.0f ± %.0f cm³  %.0f %% seen  confidence %.2f%s%s\n",
                 f.id, f.centre.x(), f.centre.y(), f.centre.z(), f.volume_cm3, f.volume_sd_cm3,
-                100.0 * f.seen_share, f.confidence);
+                100.0 * f.seen_share, f.confidence, told ? "  " : "",
+                told ? ripeness_name(f.ripeness) : "");
   }
   std::printf("results           %s\n", arguments.out.c_str());
 }

@@ -1,15 +1,18 @@
 #include <oneapi/tbb/global_control.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <future>
 #include <optional>
 
+#include "canopeer/map/cloud_fusion.h"
 #include "canopeer/map/map_file.h"
 #include "commands.h"
 #include "exit_status.h"
 #include "map_summary.h"
 #include "progress_bar.h"
 #include "recording.h"
+#include "recording_check.h"
 #include "stop_signal.h"
 
 namespace canopeer::app {
@@ -53,7 +56,17 @@ class ReadAhead {
 struct Fused {
   int frames = 0;
   std::int64_t points = 0;
+  std::int64_t absurd = 0;  // points of clouds that no sensor measures
 };
+
+std::int64_t absurd_points(const Observation& observation) {
+  const auto* cloud = std::get_if<PosedCloud>(&observation);
+  if (cloud == nullptr) return 0;
+  const auto& points = cloud->file.cloud.points;
+  return std::count_if(points.begin(), points.end(), [](const Eigen::Vector3f& p) {
+    return p.allFinite() && p.cast<double>().norm() >= kNoReturn_m;
+  });
+}
 
 Fused fuse_all(const MapFuseArguments& arguments, const Recording& recording, VoxelMap& map,
                const std::atomic<bool>& stop) {
@@ -70,6 +83,7 @@ Fused fuse_all(const MapFuseArguments& arguments, const Recording& recording, Vo
     const auto points = fuse_observation(map, observation, fusion);
     if (!points) stop_with(kBadInput, {recording.name(i) + ": " + points.error().message});
     fused.points += *points;
+    fused.absurd += absurd_points(observation);
     ++fused.frames;
     char text[120];
     std::snprintf(text, sizeof text, "frame %d/%zu  %lld points  %lld known voxels", fused.frames,
@@ -93,6 +107,9 @@ void map_fuse(const MapFuseArguments& arguments) {
   }
   const auto recording = value_or_stop(open_recording(arguments), kBadInput);
   report_gaps(arguments, *recording);
+  for (const std::string& notice : value_or_stop(check_recording(*recording), kBadInput)) {
+    if (!arguments.quiet) std::fprintf(stderr, "canopeer: notice: %s\n", notice.c_str());
+  }
   VoxelMapOptions options;
   options.resolution_m = arguments.resolution_m;
   VoxelMap map(options);
@@ -103,14 +120,27 @@ void map_fuse(const MapFuseArguments& arguments) {
   if (!arguments.quiet) {
     std::printf("frames            %d, %lld points\n", fused.frames,
                 static_cast<long long>(fused.points));
+    if (!recording->poses().taken.empty()) {
+      std::printf("poses             %s\n", recording->poses().taken.c_str());
+    }
     print_map(map);
     for (const auto& file : files) std::printf("%s\n", file.c_str());
+  }
+  if (fused.absurd > 0 && !arguments.quiet) {
+    std::fprintf(stderr, "canopeer: notice: left out: %lld points beyond %g m\n",
+                 static_cast<long long>(fused.absurd), kNoReturn_m);
   }
   if (!stop && map.observed_voxels() == 0) {
     std::fprintf(stderr,
                  "canopeer: warning: %s is empty: none of the %d frames of %s has a pixel or point "
                  "with a finite distance\n",
                  arguments.out.c_str(), fused.frames, arguments.dataset.c_str());
+  } else if (!stop && fused.points == 0) {
+    std::fprintf(
+        stderr,
+        "canopeer: warning: %s holds free space only: none of the %d frames of %s has a "
+        "pixel or point within %g m; is the unit right? (see --depth-factor, --max-range)\n",
+        arguments.out.c_str(), fused.frames, arguments.dataset.c_str(), arguments.max_range_m);
   }
   if (stop) {
     std::fprintf(stderr, "canopeer: interrupted; %s holds the first %d frames\n",

@@ -173,7 +173,9 @@ void add_fruit(CLI::App& app, FruitFitArguments& a) {
   fruit->require_subcommand(1);
   CLI::App* fit = fruit->add_subcommand(
       "fit", "Find the fruits in a cloud of fruit surface, fit their shapes, write the fruit map");
-  fit->add_option("cloud", a.cloud, "Points: .ply, .pcd or .csv, normals and colours optional")
+  fit->add_option("cloud", a.cloud,
+                  "Points: .ply, .pcd, or text (.csv, .txt, .xyz, .asc, .pts); normals and colours "
+                  "optional")
       ->required();
   fit->add_option("--out", a.out, "Directory for the results")->required();
   fit->add_option("--unit", a.unit, "What the coordinates are in")
@@ -219,7 +221,8 @@ void add_map_fuse(CLI::App& map, MapFuseArguments& a) {
                    "What a metre is in the depth images; default: the camera file's, or 5000")
       ->check(CLI::Range(1e-3, 1e9));
   fuse->add_option("--trajectory", a.trajectory,
-                   "Poses `timestamp tx ty tz qx qy qz qw`; default: the recording's own");
+                   "Poses `timestamp tx ty tz qx qy qz qw`, or columns that its first line names; "
+                   "default: the recording's own");
   fuse->add_option("--max-gap", a.max_pose_gap_s,
                    "Seconds that poses may lie apart to interpolate between them")
       ->check(CLI::Range(0.0, 1e6))

@@ -1,5 +1,6 @@
 #include "recording.h"
 
+#include <cmath>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -7,7 +8,9 @@
 #include "canopeer/config/camera_file.h"
 #include "canopeer/detect/color_detector.h"
 #include "canopeer/map/cloud_fusion.h"
+#include "canopeer/sensing/depth_file.h"
 #include "canopeer/sensing/png.h"
+#include "canopeer/sensing/pose_check.h"
 #include "canopeer/sensing/tum_sequence.h"
 
 namespace canopeer::app {
@@ -24,11 +27,15 @@ class TumRecording final : public Recording {
   [[nodiscard]] std::string name(std::size_t i) const override {
     return sequence_.frames[i].depth.string();
   }
+  [[nodiscard]] std::optional<Pose> pose(std::size_t i) const override {
+    return sequence_.frames[i].T_world_camera;
+  }
+  [[nodiscard]] const PoseSource& poses() const override { return sequence_.poses; }
   [[nodiscard]] PoseGaps gaps() const override { return sequence_.gaps; }
 
   [[nodiscard]] Expected<Observation> load(std::size_t i) const override {
     const TumFrame& files = sequence_.frames[i];
-    auto depth = read_depth_png(files.depth, camera_.depth_units_per_m);
+    auto depth = read_depth_image(files.depth, camera_.depth);
     if (!depth) return tl::unexpected(depth.error());
     SegmentedFrame segmented;
     RgbdFrame& frame = segmented.frame;
@@ -81,6 +88,10 @@ class CloudRecording final : public Recording {
   [[nodiscard]] std::string name(std::size_t i) const override {
     return folder_.frames[i].file.string();
   }
+  [[nodiscard]] std::optional<Pose> pose(std::size_t i) const override {
+    return folder_.frames[i].T_world_points;
+  }
+  [[nodiscard]] const PoseSource& poses() const override { return folder_.poses; }
   [[nodiscard]] PoseGaps gaps() const override { return folder_.gaps; }
   [[nodiscard]] Expected<Observation> load(std::size_t i) const override {
     auto cloud = load_cloud(folder_, i);
@@ -98,8 +109,9 @@ Expected<CameraFile> camera_of(const MapFuseArguments& arguments) {
   std::error_code code;
   if (!arguments.intrinsics.empty()) {
     const std::vector<double>& k = arguments.intrinsics;
-    if (!(k[0] > 0.0 && k[1] > 0.0)) return fail("--intrinsics: FX and FY must be positive");
-    camera.intrinsics = intrinsics_of(k[0], k[1], k[2], k[3]);
+    if (!(k[0] > 0.0 && k[1] != 0.0)) return fail("--intrinsics: FX must be positive, FY not 0");
+    camera.intrinsics = intrinsics_of(k[0], std::abs(k[1]), k[2], k[3]);
+    camera.y_up = k[1] < 0.0;
   } else if (!arguments.camera.empty() || fs::exists(own, code)) {
     auto file = load_camera(arguments.camera.empty() ? own : fs::path(arguments.camera));
     if (!file) return file;
@@ -110,7 +122,7 @@ Expected<CameraFile> camera_of(const MapFuseArguments& arguments) {
         ": the camera's intrinsics are not known; pass --intrinsics FX,FY,CX,CY or --camera "
         "FILE, or put a camera.yaml there");
   }
-  if (arguments.depth_units_per_m) camera.depth_units_per_m = *arguments.depth_units_per_m;
+  if (arguments.depth_units_per_m) camera.depth.per_m = *arguments.depth_units_per_m;
   return camera;
 }
 
@@ -134,7 +146,8 @@ Expected<std::unique_ptr<Recording>> open_recording(const MapFuseArguments& argu
     auto folder =
         open_cloud_folder(directory, {arguments.max_pose_gap_s, fs::path(arguments.trajectory)});
     if (!folder) {
-      return fail(folder.error().message + " (nor a depth.txt or associations.txt was there)");
+      return fail(folder.error().message +
+                  " (nor was depth.txt, associations.txt or a folder depth there)");
     }
     return std::make_unique<CloudRecording>(*std::move(folder));
   }
@@ -143,6 +156,12 @@ Expected<std::unique_ptr<Recording>> open_recording(const MapFuseArguments& argu
   auto sequence = open_tum_sequence(
       directory, {arguments.max_difference_s, arguments.max_pose_gap_s, arguments.trajectory});
   if (!sequence) return tl::unexpected(sequence.error());
+  if (camera->y_up) {
+    for (TumFrame& frame : sequence->frames) frame.T_world_camera = mirrored(frame.T_world_camera);
+    sequence->poses.notices.push_back(
+        "fy is negative: the camera's y axis points up and its poses are left-handed; camera and "
+        "world are mirrored (y changes its sign)");
+  }
   const bool by_color = arguments.roi == "color";
   if (by_color && static_cast<std::size_t>(sequence->without_color) == sequence->frames.size()) {
     return fail(arguments.dataset +

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -27,6 +28,9 @@ class Recording {
   /// The file that stands for an observation in messages.
   [[nodiscard]] virtual std::string name(std::size_t i) const = 0;
   [[nodiscard]] virtual Expected<Observation> load(std::size_t i) const = 0;
+  /// Where its sensor was; nothing when only the file of the observation says it.
+  [[nodiscard]] virtual std::optional<Pose> pose(std::size_t i) const = 0;
+  [[nodiscard]] virtual const PoseSource& poses() const = 0;
   /// Observations that are not among them for want of a pose.
   [[nodiscard]] virtual PoseGaps gaps() const = 0;
 };

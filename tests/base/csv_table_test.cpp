@@ -24,5 +24,12 @@ TEST(CsvTable, FindsColumnsByNameInAnyOrder) {
   EXPECT_FALSE(CsvTable::parse("", "f.csv").has_value());
 }
 
+TEST(CsvTable, ASpreadsheetsMarkIsNoPartOfTheFirstName) {
+  const auto table = CsvTable::parse("\xEF\xBB\xBFid,x_m\r\n1,0.5\r\n", "a.csv");
+  ASSERT_TRUE(table.has_value());
+  EXPECT_TRUE(table->has("id"));
+  EXPECT_EQ(table->number(0, "x_m").value(), 0.5);
+}
+
 }  // namespace
 }  // namespace canopeer

@@ -81,10 +81,59 @@ TEST(YamlMap, ReportsBrokenYamlWithItsLine) {
   EXPECT_NE(broken.error().message.find("m.yaml:"), std::string::npos) << broken.error().message;
   const auto twice = YamlMap::parse("a: 1\na: 2\n", "m.yaml");
   ASSERT_FALSE(twice);
-  EXPECT_EQ(twice.error().message, "m.yaml:2: key 'a' is there twice");
+  EXPECT_EQ(twice.error().message, "m.yaml:2: key 'a' is there twice; the first is on line 1");
   EXPECT_FALSE(YamlMap::parse("- 1\n- 2\n", "m.yaml"));
   EXPECT_FALSE(YamlMap::parse("", "m.yaml"));
   EXPECT_FALSE(YamlMap::load("/nonexistent/m.yaml"));
+}
+
+std::string error_of(const std::string& text) {
+  const auto map = YamlMap::parse(text, "m.yaml");
+  return map ? "no error" : map.error().message;
+}
+
+TEST(YamlMap, ASecondDocumentIsNotPassedOver) {
+  EXPECT_EQ(error_of("a: 1\n---\nb: 2\n"),
+            "m.yaml:3: a second document begins here (after ---); a file must hold one");
+  EXPECT_EQ(error_of("--- # first\na: 1\n...\n---\n- 1\n"),
+            "m.yaml:5: a second document begins here (after ---); a file must hold one");
+  for (const char* one : {"---\na: 1\n", "a: 1\n...\n", "a: 1\n---\n", "%YAML 1.2\n---\na: 1\n",
+                          "\xEF\xBB\xBF"
+                          "a: 1\r\n"}) {
+    EXPECT_EQ(error_of(one), "no error") << one;
+  }
+}
+
+TEST(YamlMap, TheSameKeyTwiceIsFoundAtAnyDepth) {
+  EXPECT_EQ(error_of("a: 1\nb:\n  c: 1\n  d: 2\n  c: 1\n"),
+            "m.yaml:5: key 'c' is there twice; the first is on line 3");
+  EXPECT_EQ(error_of("a: 1\nb: [{c: 1}, {c: 1, c: 2}]\n"),
+            "m.yaml:2: key 'c' is there twice; the first is on line 2");
+  EXPECT_EQ(error_of("a: 1\n'a': 2\n"), "m.yaml:2: key 'a' is there twice; the first is on line 1");
+}
+
+TEST(YamlMap, TabsThatIndentAreNamed) {
+  const std::string tab = "a tab indents this line; YAML wants blanks";
+  EXPECT_EQ(error_of("a:\n\tb: 1\n"), "m.yaml:2: " + tab);
+  EXPECT_EQ(error_of("a: 1\n\tb: 2\n"), "m.yaml:2: " + tab);
+  EXPECT_EQ(error_of("a:\n  b: 1\n\tc: 2\n"), "m.yaml:3: " + tab);
+  EXPECT_EQ(error_of("a:\n  - b: 1\n \t  c: 2\n"), "m.yaml:3: " + tab);
+  EXPECT_EQ(error_of("a:\t1\t# one\nb: [1,\n\t2]\n"), "no error");
+}
+
+TEST(YamlMap, AliasesThatNeverEndAreRefused) {
+  const std::string alias = "an alias (*name) repeats what holds it, or too much";
+  EXPECT_NE(error_of("a: &x [*x]\n").find(alias), std::string::npos);
+  EXPECT_NE(error_of("a: &x {b: *x}\n").find(alias), std::string::npos);
+  std::string laughs = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
+  for (int i = 1; i < 12; ++i) {
+    const std::string of = "*a" + std::to_string(i - 1);
+    laughs += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [" + of;
+    for (int k = 0; k < 9; ++k) laughs += ", " + of;
+    laughs += "]\n";
+  }
+  EXPECT_NE(error_of(laughs).find(alias), std::string::npos);
+  EXPECT_EQ(error_of("a: &x {b: 1}\nc: *x\n"), "no error");
 }
 
 TEST(YamlMap, TakesSettingsFromOutside) {

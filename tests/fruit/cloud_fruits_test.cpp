@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "canopeer/base/rng.h"
+#include "canopeer/fruit/color_ripeness.h"
 #include "canopeer/fruit/surface/cloud_normals.h"
 
 namespace canopeer {
@@ -68,14 +69,67 @@ TEST(FitCloud, LeavesOutPointsThatAreNotFinite) {
   EXPECT_EQ(fitted->fruits.size(), 3U);
 }
 
+TEST(FitCloud, LeavesOutWhatStandsForNoPointAndCountsIt) {
+  const PointCloud clean = three_fruits(true);
+  const auto expected = fit_cloud(clean);
+  ASSERT_TRUE(expected.has_value());
+  EXPECT_TRUE(expected->notices.empty());
+  PointCloud cloud = clean;
+  const auto add = [&](int count, const Eigen::Vector3f& p) {
+    for (int i = 0; i < count; ++i) {
+      cloud.points.push_back(p);
+      cloud.normals.push_back(Eigen::Vector3f::UnitX());
+      cloud.colors.push_back({});
+    }
+  };
+  add(3, Eigen::Vector3f(1e30F, 0, 0));
+  add(20000, Eigen::Vector3f::Constant(3.4e38F));  // a sensor's, where nothing came back
+  add(4, Eigen::Vector3f(0, -9000, 1));
+  add(5, Eigen::Vector3f::Zero());
+  add(2, Eigen::Vector3f::Constant(std::numeric_limits<float>::infinity()));
+  const auto fitted = fit_cloud(cloud);
+  ASSERT_TRUE(fitted.has_value()) << fitted.error().message;
+  ASSERT_EQ(fitted->fruits.size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(fitted->fruits[k].centre, expected->fruits[k].centre);
+  }
+  EXPECT_EQ(fitted->notices, (std::vector<std::string>{"left out: 2 points that are not finite",
+                                                       "left out: 20007 points beyond 2000 m",
+                                                       "left out: 5 points at 0 0 0"}));
+}
+
+TEST(FitCloud, ColourTellsRipeness) {
+  const std::pair<Rgb, PixelLabel> cases[] = {{{200, 40, 10}, PixelLabel::ripe_fruit},
+                                              {{220, 120, 20}, PixelLabel::turning_fruit},
+                                              {{60, 130, 40}, PixelLabel::green_fruit},
+                                              {{120, 118, 119}, PixelLabel::background}};
+  for (const auto& [color, ripeness] : cases) {
+    EXPECT_EQ(ripeness_of_color(color), ripeness);
+    PointCloud cloud = three_fruits(true);
+    cloud.colors.assign(cloud.points.size(), color);
+    const auto fitted = fit_cloud(cloud);
+    ASSERT_TRUE(fitted.has_value());
+    ASSERT_EQ(fitted->fruits.size(), 3U);
+    for (const FruitEstimate& f : fitted->fruits) EXPECT_EQ(f.ripeness, ripeness);
+  }
+  EXPECT_EQ(ripeness_of_color({200, 20, 60}), PixelLabel::ripe_fruit);  // hue −13°
+  EXPECT_EQ(ripeness_of_color({20, 40, 200}), PixelLabel::background);
+  EXPECT_EQ(ripeness_of_color({12, 2, 1}), PixelLabel::background);
+  EXPECT_EQ(ripeness_of_surface({{200, 40, 10}, {200, 40, 10}, {60, 130, 40}}),
+            PixelLabel::ripe_fruit);
+  EXPECT_EQ(ripeness_of_surface({}), PixelLabel::background);
+}
+
 TEST(FitCloud, SaysWhyThereIsNothingToFit) {
   EXPECT_NE(message_for({}).find("empty"), std::string::npos);
   PointCloud nan;
   nan.points.assign(100, Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
   EXPECT_NE(message_for(nan).find("none of the 100 points is finite"), std::string::npos);
   PointCloud few;
-  few.points.assign(3, Eigen::Vector3f::Zero());
+  few.points.assign(3, Eigen::Vector3f::Ones());
   EXPECT_NE(message_for(few).find("only 3"), std::string::npos);
+  few.points.push_back(Eigen::Vector3f::Constant(1e9F));
+  EXPECT_NE(message_for(few).find("only 3 of 4 finite points"), std::string::npos);
   for (const float scale : {1000.0F, 0.01F}) {
     PointCloud scaled = three_fruits(false);
     for (auto& p : scaled.points) p *= scale;

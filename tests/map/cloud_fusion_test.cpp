@@ -131,8 +131,9 @@ TEST(CloudFusion, AHitBeatsTheRaysThroughItsVoxel) {
 TEST(CloudFusion, PointsThatAreNoPointsCountForNothing) {
   const float inf = std::numeric_limits<float>::infinity();
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  const std::vector<Eigen::Vector3f> points = {
-      {nan, 0, 0}, {0, inf, 1}, {0, 0, -inf}, {0, 0, 0}, {0.05F, 0, 0}};
+  const std::vector<Eigen::Vector3f> points = {{nan, 0, 0},     {0, inf, 1},   {0, 0, -inf},
+                                               {0, 0, 0},       {0.05F, 0, 0}, {1e30F, 0, 0},
+                                               {0, 3.4e38F, 0}, {0, 0, 10001}};
   VoxelMap map = empty_map(0.01);
   CloudFusionOptions options;
   options.min_range_m = 0.1;
@@ -142,8 +143,8 @@ TEST(CloudFusion, PointsThatAreNoPointsCountForNothing) {
   EXPECT_EQ(fuse_cloud(map, {}).fused_points, 0);
 }
 
-TEST(CloudFusion, SpaceIsFreedUpToTheRangeEvenWhenAPointIsAbsurdlyFar) {
-  for (const float far : {1.0F, 1e30F}) {
+TEST(CloudFusion, SpaceIsFreedUpToTheRangeEvenWhenAPointIsVeryFar) {
+  for (const float far : {1.0F, 9000.0F}) {
     const std::vector<Eigen::Vector3f> points = {{far, 0.004F, 0.004F}};
     VoxelMap map = empty_map(0.01);
     CloudFusionOptions options;

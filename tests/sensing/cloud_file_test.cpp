@@ -243,5 +243,63 @@ TEST(CloudReaders, SurviveDamagedFiles) {
   }
 }
 
+TEST(CloudFiles, CapitalsAndOtherNamesOfColumnsAreKnown) {
+  const std::string values = "1 2 3 0 0 1 255 51 0\n";
+  const std::string ply_types[] = {"uchar", "int", "ushort", "float"};
+  for (const std::string& type : ply_types) {
+    for (const char* prefix : {"", "diffuse_"}) {
+      std::string text = "ply\nformat ascii 1.0\nelement vertex 1\n";
+      for (const char* name : {"X", "Y", "Z", "NX", "ny", "Nz"}) {
+        text += std::string("property float ") + name + "\n";
+      }
+      for (const char* name : {"red", "green", "blue"}) {
+        text += "property " + type + " " + prefix + name + "\n";
+      }
+      const auto file = parse_ply(text + "end_header\n" + values, "a.ply");
+      ASSERT_TRUE(file) << file.error().message;
+      EXPECT_EQ(file->cloud.points.at(0), Eigen::Vector3f(1, 2, 3));
+      EXPECT_EQ(file->cloud.normals.at(0), Eigen::Vector3f(0, 0, 1));
+      EXPECT_TRUE(file->cloud.colors.at(0) == (Rgb{255, 51, 0})) << type;
+    }
+  }
+  const auto pcd = parse_pcd(
+      "FIELDS X Y Z Normal_X Normal_Y Normal_Z R G B\nSIZE 4 4 4 4 4 4 4 4 4\nTYPE F F F F F F F F "
+      "F\nWIDTH 1\nHEIGHT 1\nDATA ascii\n1 2 3 0 0 1 1 0.2 0\n",
+      "a.pcd");
+  ASSERT_TRUE(pcd) << pcd.error().message;
+  EXPECT_EQ(pcd->cloud.normals.at(0), Eigen::Vector3f(0, 0, 1));
+  EXPECT_TRUE(pcd->cloud.colors.at(0) == (Rgb{255, 51, 0}));
+}
+
+TEST(CloudFiles, ColoursOfSixteenBitsAreShortened) {
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float "
+      "z\nproperty ushort red\nproperty ushort green\nproperty ushort blue\nend_header\n";
+  const auto wide = parse_ply(head + "1 2 3 65535 13107 0\n1 2 3 257 0 0\n", "a.ply");
+  EXPECT_TRUE(wide->cloud.colors.at(0) == (Rgb{255, 51, 0}));
+  EXPECT_TRUE(wide->cloud.colors.at(1) == (Rgb{1, 0, 0}));
+}
+
+TEST(CloudFiles, AreToldByTheirContent) {
+  const auto folder = std::filesystem::path(testing::TempDir());
+  const auto read = [&](const char* name, const std::string& bytes) {
+    EXPECT_TRUE(write_file(folder / name, bytes));
+    return read_cloud(folder / name);
+  };
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float "
+      "z\nend_header\n1 2 3\n";
+  for (const char* name : {"canopeer_a.PLY", "canopeer_a.txt"}) {
+    EXPECT_EQ(read(name, ply)->cloud.points.size(), 1U) << name;
+  }
+  EXPECT_EQ(read("canopeer_a.XYZ", "1 2 3\n4 5 6\n")->cloud.points.size(), 2U);
+  expect_in("Git LFS",
+            message(read("canopeer_b.ply", "version https://git-lfs.github.com/spec/v1\n")));
+  expect_in("gzip", message(read("canopeer_c.pcd", "\x1F\x8B\x08")));
+  expect_in("LAS", message(read("canopeer_d.txt", "LASF....")));
+  EXPECT_TRUE(is_cloud_of_scanner("A.PCD"));
+  EXPECT_FALSE(is_cloud_of_scanner("poses.txt"));
+}
+
 }  // namespace
 }  // namespace canopeer

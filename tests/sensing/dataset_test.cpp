@@ -6,6 +6,7 @@
 
 #include "canopeer/base/atomic_file.h"
 #include "canopeer/sensing/cloud_folder.h"
+#include "canopeer/sensing/depth_file.h"
 #include "canopeer/sensing/png.h"
 #include "canopeer/sensing/tum_sequence.h"
 
@@ -86,7 +87,7 @@ TEST_F(Dataset, TumErrorsNameFileAndLine) {
   write("depth/1.png", "");
   write("depth.txt", "1.0 depth/1.png\n");
   expect_in("groundtruth.txt", tum_error());
-  write("groundtruth.txt", "0 0 0 0 0 0 0\n");
+  write("groundtruth.txt", "0 0 0 0 0 0\n");
   expect_in("groundtruth.txt:1: expected the 8 numbers", tum_error());
   write("groundtruth.txt", "5 0 0 0 0 0 0 1\n6 0 0 0 0 0 0 1\n");
   expect_in("no depth image has a pose", tum_error());
@@ -98,6 +99,66 @@ TEST_F(Dataset, TumErrorsNameFileAndLine) {
   expect_in("depth.txt:1: the image", tum_error());
   write("depth.txt", "# none\n");
   expect_in("no depth images", tum_error());
+}
+
+TEST_F(Dataset, PosesWithoutTimeStampsGoToTheImagesInOrder) {
+  for (const char* name : {"depth/1.png", "depth/2.png"}) write(name, "");
+  write("depth.txt", "5.5 depth/1.png\n6.5 depth/2.png\n");
+  for (const char* poses :
+       {"1 2 3 0 0 0 1\n4 5 6 0 0 0 1\n", "1 0 0 1 0 1 0 2 0 0 1 3\n1 0 0 4 0 1 0 5 0 0 1 6\n"}) {
+    write("groundtruth.txt", poses);
+    const auto sequence = open_tum_sequence(directory_);
+    ASSERT_TRUE(sequence) << sequence.error().message;
+    EXPECT_EQ(sequence->frames.at(1).T_world_camera.translation(), Vec3(4, 5, 6));
+    EXPECT_TRUE(sequence->poses.notices.empty());
+  }
+  // Counted instead of timed, as some of ICL-NUIM's are.
+  write("groundtruth.txt", "1 1 2 3 0 0 0 1\n2 4 5 6 0 0 0 1\n");
+  const auto counted = open_tum_sequence(directory_);
+  ASSERT_TRUE(counted) << counted.error().message;
+  EXPECT_EQ(counted->frames.at(1).T_world_camera.translation(), Vec3(4, 5, 6));
+  expect_in("only count the poses", counted->poses.notices.at(0));
+  write("groundtruth.txt", "1 2 3 0 0 0 1\n");
+  expect_in("has 1 poses without time stamps for 2 depth images", tum_error());
+  // Images that are counted as well are found by their numbers.
+  write("depth.txt", "0 depth/1.png\n1 depth/2.png\n");
+  write("groundtruth.txt", "1 1 2 3 0 0 0 1\n2 4 5 6 0 0 0 1\n");
+  const auto numbered = open_tum_sequence(directory_);
+  ASSERT_TRUE(numbered) << numbered.error().message;
+  ASSERT_EQ(numbered->frames.size(), 1U);
+  EXPECT_EQ(numbered->frames[0].depth, directory_ / "depth/2.png");
+  EXPECT_EQ(numbered->frames[0].T_world_camera.translation(), Vec3(1, 2, 3));
+}
+
+TEST_F(Dataset, ImagesWithoutAListAreTakenInOrder) {
+  for (const char* name :
+       {"depth/2.pgm", "depth/10.pgm", "depth/1.png", "rgb/10.png", "depth/a.txt"}) {
+    write(name, "");
+  }
+  write("pose.txt", "1 0 0 0 0 0 1\n2 0 0 0 0 0 1\n10 0 0 0 0 0 1\n");
+  EXPECT_TRUE(is_tum_sequence(directory_));
+  auto sequence = open_tum_sequence(directory_);
+  ASSERT_TRUE(sequence) << sequence.error().message;
+  ASSERT_EQ(sequence->frames.size(), 3U);
+  EXPECT_EQ(sequence->frames[2].depth, directory_ / "depth/10.pgm");
+  EXPECT_EQ(sequence->frames[2].T_world_camera.translation().x(), 10.0);
+  EXPECT_EQ(sequence->frames[2].color, directory_ / "rgb/10.png");
+  EXPECT_TRUE(sequence->frames[0].color.empty());
+  // The names are time stamps when the poses have some.
+  write("pose.txt", "2 2 0 0 0 0 0 1\n10 10 0 0 0 0 0 1\n");
+  sequence = open_tum_sequence(directory_);
+  ASSERT_TRUE(sequence) << sequence.error().message;
+  EXPECT_EQ(sequence->frames.at(1).T_world_camera.translation().x(), 10.0);
+  EXPECT_EQ(sequence->gaps.observations, 1);
+}
+
+TEST_F(Dataset, StampsInNanosecondsMeetThoseInSeconds) {
+  write("depth/1.png", "");
+  write("depth.txt", "\xEF\xBB\xBF#timestamp [ns],filename\n1403636579763555584,depth/1.png\n");
+  write("groundtruth.txt", "1403636579.70 0 0 0 0 0 0 1\n1403636579.80 1 0 0 0 0 0 1\n");
+  const auto sequence = open_tum_sequence(directory_);
+  ASSERT_TRUE(sequence) << sequence.error().message;
+  EXPECT_NEAR(sequence->frames.at(0).T_world_camera.translation().x(), 0.6356, 1e-3);
 }
 
 TEST_F(Dataset, CloudsAreMatchedByTimeStampOrByOrder) {
@@ -118,6 +179,10 @@ TEST_F(Dataset, CloudsAreMatchedByTimeStampOrByOrder) {
   EXPECT_EQ(folder->frames.at(1).T_world_points->translation().x(), 8.0);
   write("poses.txt", "100 7 0 0 0 0 0 1\n");
   expect_in("1 poses for 2 clouds", folder_error());
+  write("poses.txt", "1 0 0 7 0 1 0 0 0 0 1 0\n1 0 0 8 0 1 0 0 0 0 1 0\n");  // KITTI
+  folder = open_cloud_folder(directory_);
+  ASSERT_TRUE(folder) << folder.error().message;
+  EXPECT_EQ(folder->frames.at(1).T_world_points->translation().x(), 8.0);
 }
 
 TEST_F(Dataset, CloudsWithoutATrajectoryMustSayTheirPosesThemselves) {
@@ -147,6 +212,60 @@ TEST_F(Dataset, DepthImagesAreReadInTheUnitTheyHave) {
   EXPECT_NEAR(read_depth_png(path, 1000.0)->at(0, 0), 7.5F, 1e-5F);
   ASSERT_TRUE(write_png(path, ColorImage(3, 2)));
   expect_in("expected 16 bit grey, got 8 bit colour", read_depth_png(path, 5000.0).error().message);
+}
+
+std::string pgm16(const std::vector<int>& values, bool text) {
+  std::string bytes = std::string(text ? "P2" : "P5") + "\n# made by hand\n2 2\n65535\n";
+  for (const int value : values) {
+    if (text) {
+      bytes += std::to_string(value) + " ";
+    } else {
+      bytes.push_back(static_cast<char>(value >> 8));
+      bytes.push_back(static_cast<char>(value & 0xFF));
+    }
+  }
+  return bytes;
+}
+
+TEST_F(Dataset, WhatMeansNoDepthIsNone) {
+  const std::vector<int> units = {0, 65535, 2500, 10000};
+  for (const bool text : {false, true}) {
+    const auto depth = parse_depth_image(pgm16(units, text), {1000.0, 0.0});
+    ASSERT_TRUE(depth) << depth.error().message;
+    EXPECT_EQ(depth->pixels(), (std::vector<float>{0.0F, 0.0F, 2.5F, 10.0F}));
+    const auto limited = parse_depth_image(pgm16(units, text), {1000.0, 10.0});
+    EXPECT_EQ(limited->pixels(), (std::vector<float>{0.0F, 0.0F, 2.5F, 0.0F}));
+  }
+  DepthImage png(2, 1, 2.5F);
+  png.at(1, 0) = 80.0F;  // saturates at 65.535 m
+  const fs::path path = directory_ / "depth/1.png";
+  ASSERT_TRUE(write_depth_png(path, png, 1000.0));
+  EXPECT_EQ(read_depth_image(path, {1000.0, 0.0})->pixels(), (std::vector<float>{2.5F, 0.0F}));
+}
+
+TEST_F(Dataset, PgmReadersSurviveDamagedFiles) {
+  const auto error = [](const std::string& bytes) {
+    const auto depth = parse_depth_image(bytes, {1000.0, 0.0});
+    return depth ? "no error" : depth.error().message;
+  };
+  expect_in("got 8 bit grey", error("P5\n2 1\n255\nab"));
+  expect_in("cut off", error("P5\n1048576 1048576\n65535\nab"));
+  expect_in("header is damaged", error("P5\n2 -1\n65535\nab"));
+  expect_in("pixel 2", error("P2\n2 1\n65535\n7 x"));
+  expect_in("got JPEG", error("\xFF\xD8\xFF\xE0"));
+  expect_in("not a PNG file", error("hello"));
+  for (const bool text : {false, true}) {
+    const std::string bytes = pgm16({1, 2, 3, 4}, text);
+    for (std::size_t size = 0; size < bytes.size(); ++size) {
+      EXPECT_FALSE(parse_depth_image(bytes.substr(0, size), {1000.0, 0.0}) &&
+                   size + 2 < bytes.size());
+      std::string damaged = bytes;
+      for (const char value : {'\0', '\xFF', '#', '9'}) {
+        damaged[size] = value;
+        (void)parse_depth_image(damaged, {1000.0, 0.0});
+      }
+    }
+  }
 }
 
 TEST_F(Dataset, APngThatClaimsToBeHugeTakesNoMemory) {

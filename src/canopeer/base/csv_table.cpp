@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "canopeer/base/atomic_file.h"
+#include "canopeer/base/plain_text.h"
 
 namespace canopeer {
 namespace {
@@ -45,6 +46,8 @@ Expected<CsvTable> CsvTable::read(const std::filesystem::path& path) {
 Expected<CsvTable> CsvTable::parse(std::string_view text, std::string name) {
   CsvTable table;
   table.name_ = std::move(name);
+  const PlainText plain(text);  // spreadsheets put a mark before it
+  text = plain.view();
   for (int line = 1; !text.empty(); ++line) {
     const std::size_t end = text.find('\n');
     const std::string_view content = trimmed(text.substr(0, end));

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "canopeer/base/text_lines.h"
+
 namespace canopeer {
 namespace {
 
@@ -11,45 +13,89 @@ std::string at_line(const std::string& name, int line) {
   return line > 0 ? name + ":" + std::to_string(line) : name;
 }
 
-/// Copies yaml-cpp's tree; the first duplicate or unreadable key goes to `trouble`.
-std::unique_ptr<YamlNode> copy(const YAML::Node& from, const std::string& name, bool keep_lines,
-                               std::string& trouble) {
-  auto node = std::make_unique<YamlNode>();
-  const int line = from.Mark().line + 1;
-  node->line = keep_lines ? line : 0;
-  switch (from.Type()) {
-    case YAML::NodeType::Undefined:
-    case YAML::NodeType::Null:
-      break;
-    case YAML::NodeType::Scalar:
-      node->kind = YamlNode::Kind::kScalar;
-      node->scalar = from.Scalar();
-      node->quoted = from.Tag() == "!";
-      break;
-    case YAML::NodeType::Sequence:
-      node->kind = YamlNode::Kind::kSequence;
-      for (const YAML::Node& item : from)
-        node->items.push_back(copy(item, name, keep_lines, trouble));
-      break;
-    case YAML::NodeType::Map:
-      node->kind = YamlNode::Kind::kMap;
-      for (const auto& entry : from) {
-        const std::string place = at_line(name, entry.first.Mark().line + 1);
-        if (!entry.first.IsScalar()) {
-          if (trouble.empty()) trouble = place + ": a key must be a plain word";
-          continue;
+/// Copies yaml-cpp's tree. What is wrong with it goes to `trouble`, the first only.
+class TreeCopy {
+ public:
+  TreeCopy(const std::string& name, bool keep_lines) : name_(name), keep_lines_(keep_lines) {}
+
+  std::unique_ptr<YamlNode> copy(const YAML::Node& from, int depth = 0) {
+    auto node = std::make_unique<YamlNode>();
+    const int line = from.Mark().line + 1;
+    node->line = keep_lines_ ? line : 0;
+    if (depth > kMaxDepth || ++nodes_ > kMaxNodes) {
+      note(line, "an alias (*name) repeats what holds it, or too much");
+      return node;
+    }
+    switch (from.Type()) {
+      case YAML::NodeType::Undefined:
+      case YAML::NodeType::Null:
+        break;
+      case YAML::NodeType::Scalar:
+        node->kind = YamlNode::Kind::kScalar;
+        node->scalar = from.Scalar();
+        node->quoted = from.Tag() == "!";
+        break;
+      case YAML::NodeType::Sequence:
+        node->kind = YamlNode::Kind::kSequence;
+        for (const YAML::Node& item : from) {
+          if (!trouble_.empty()) break;
+          node->items.push_back(copy(item, depth + 1));
         }
-        const std::string& key = entry.first.Scalar();
-        if (node->find(key) != nullptr && trouble.empty())
-          trouble = place + ": key '" + key + "' is there twice";
-        auto value = copy(entry.second, name, keep_lines, trouble);
-        // An entry is complained about where its key stands, a block mapping's too.
-        if (keep_lines) value->line = entry.first.Mark().line + 1;
-        node->entries.emplace_back(key, std::move(value));
-      }
-      break;
+        break;
+      case YAML::NodeType::Map:
+        node->kind = YamlNode::Kind::kMap;
+        for (const auto& entry : from) {
+          if (!trouble_.empty()) break;
+          copy_entry(entry.first, entry.second, depth, *node);
+        }
+        break;
+    }
+    return node;
   }
-  return node;
+
+  [[nodiscard]] const std::string& trouble() const { return trouble_; }
+
+ private:
+  // An alias can make a small file endless, or very large.
+  static constexpr int kMaxDepth = 100;
+  static constexpr int kMaxNodes = 1000000;
+
+  void copy_entry(const YAML::Node& key_node, const YAML::Node& value_node, int depth,
+                  YamlNode& node) {
+    const int line = key_node.Mark().line + 1;
+    if (!key_node.IsScalar()) return note(line, "a key must be a plain word");
+    const std::string& key = key_node.Scalar();
+    if (const YamlNode* const first = node.find(key)) {
+      note(line, "key '" + key + "' is there twice" +
+                     (keep_lines_ ? "; the first is on line " + std::to_string(first->line) : ""));
+    }
+    auto value = copy(value_node, depth + 1);
+    // An entry is complained about where its key stands, a block mapping's too.
+    if (keep_lines_) value->line = line;
+    node.entries.emplace_back(key, std::move(value));
+  }
+
+  void note(int line, const std::string& what) {
+    if (trouble_.empty()) trouble_ = at_line(name_, keep_lines_ ? line : 0) + ": " + what;
+  }
+
+  const std::string& name_;
+  bool keep_lines_;
+  int nodes_ = 0;
+  std::string trouble_;
+};
+
+/// What the parser stumbled over, in words for people who indent with tabs.
+std::string reason_of(const YAML::Exception& error, std::string_view text) {
+  TextLines lines(text);
+  while (const auto line = lines.next()) {
+    if (lines.number() != error.mark.line + 1) continue;
+    const std::string_view indent = line->substr(0, line->find_first_not_of(" \t"));
+    if (indent.find('\t') != std::string_view::npos) {
+      return "a tab indents this line; YAML wants blanks";
+    }
+  }
+  return "not YAML: " + error.msg;
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -99,12 +145,19 @@ YamlNode* YamlNode::find(std::string_view key) const {
 Expected<std::unique_ptr<YamlNode>> parse_yaml_value(std::string_view text, const std::string& name,
                                                      bool keep_lines) {
   try {
-    std::string trouble;
-    auto node = copy(YAML::Load(std::string(text)), name, keep_lines, trouble);
-    if (!trouble.empty()) return fail(trouble);
+    const std::vector<YAML::Node> documents = YAML::LoadAll(std::string(text));
+    for (std::size_t i = 1; i < documents.size(); ++i) {
+      if (documents[i].IsNull()) continue;
+      return fail(at_line(name, keep_lines ? documents[i].Mark().line + 1 : 0) +
+                  ": a second document begins here (after ---); a file must hold one");
+    }
+    TreeCopy tree(name, keep_lines);
+    auto node = tree.copy(documents.empty() ? YAML::Node() : documents[0]);
+    if (!tree.trouble().empty()) return fail(tree.trouble());
     return node;
   } catch (const YAML::Exception& error) {
-    return fail(at_line(name, keep_lines ? error.mark.line + 1 : 0) + ": not YAML: " + error.msg);
+    return fail(at_line(name, keep_lines ? error.mark.line + 1 : 0) + ": " +
+                reason_of(error, text));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "canopeer/fruit/color_ripeness.h"
 #include "canopeer/fruit/confidence/plausibility.h"
 #include "canopeer/fruit/instances/euclidean_clusters.h"
 #include "canopeer/fruit/instances/fruit_separation.h"
@@ -19,23 +20,66 @@ namespace {
 constexpr double kGroup_m = 0.05;        // points farther apart are never of one fruit
 constexpr double kMaxSpacing_m = 0.015;  // of points that show a surface
 constexpr double kMinExtent_m = 0.02;
+constexpr double kFarthest_m = 2000.0;  // voxel indices reach to ± 2²⁰ cells
+constexpr double kMaxFarShare = 0.1;    // more far points are no mistakes of a sensor
+constexpr double kNowhere_m = 1e8;      // beyond, whatever the unit
 
-/// Finite points, which of the cloud each is.
-std::vector<Vec3> finite_points(const PointCloud& cloud, std::vector<std::size_t>& index) {
+/// Points that somebody measured, which of the cloud each is, and what else there was.
+struct MeasuredPoints {
   std::vector<Vec3> points;
+  std::vector<std::size_t> index;
+  std::size_t not_finite = 0, nowhere = 0, far = 0, at_origin = 0;
+};
+
+/// Writers have many words for "no point": NaN, 1e30, several points at 0 0 0.
+MeasuredPoints measured_points(const PointCloud& cloud) {
+  MeasuredPoints measured;
+  const auto is_zero = [](const Eigen::Vector3f& p) { return p.isZero(0.0F); };
+  const bool zeros = std::count_if(cloud.points.begin(), cloud.points.end(), is_zero) > 1;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    if (!cloud.points[i].allFinite()) continue;
-    points.push_back(cloud.points[i].cast<double>());
-    index.push_back(i);
+    const Eigen::Vector3f& p = cloud.points[i];
+    if (!p.allFinite()) {
+      ++measured.not_finite;
+    } else if (p.cwiseAbs().maxCoeff() > kFarthest_m) {
+      ++(p.cwiseAbs().maxCoeff() > kNowhere_m ? measured.nowhere : measured.far);
+    } else if (zeros && is_zero(p)) {
+      ++measured.at_origin;
+    } else {
+      measured.points.push_back(p.cast<double>());
+      measured.index.push_back(i);
+    }
   }
-  return points;
+  return measured;
 }
 
-Expected<void> check_scale(const std::vector<Vec3>& points, std::size_t all, int min_points) {
+std::vector<std::string> notices_of(const MeasuredPoints& measured) {
+  std::vector<std::string> notices;
+  const auto note = [&](std::size_t count, const std::string& what) {
+    if (count > 0) notices.push_back(fmt::format("left out: {} {}", count, what));
+  };
+  note(measured.not_finite, "points that are not finite");
+  note(measured.nowhere + measured.far, fmt::format("points beyond {:.0f} m", kFarthest_m));
+  note(measured.at_origin, "points at 0 0 0");
+  return notices;
+}
+
+Expected<void> check_scale(const MeasuredPoints& measured, std::size_t all, int min_points) {
+  const std::vector<Vec3>& points = measured.points;
   if (all == 0) return fail("the cloud is empty");
-  if (points.empty()) return fail(fmt::format("none of the {} points is finite", all));
+  if (measured.not_finite == all) return fail(fmt::format("none of the {} points is finite", all));
+  if (static_cast<double>(measured.far) > kMaxFarShare * static_cast<double>(points.size())) {
+    return fail(
+        fmt::format("coordinates of {} points beyond {:.0f} m: are they in metres, about a nearby "
+                    "origin? (see --unit)",
+                    measured.far, kFarthest_m));
+  }
   if (static_cast<int>(points.size()) < min_points) {
-    return fail(fmt::format("only {} finite points; a fruit needs {}", points.size(), min_points));
+    std::string usable = fmt::format("only {} finite points", points.size());
+    if (const std::size_t strays = measured.nowhere + measured.far + measured.at_origin) {
+      usable = fmt::format("only {} of {} finite points are neither at 0 0 0 nor beyond {:.0f} m",
+                           points.size(), points.size() + strays, kFarthest_m);
+    }
+    return fail(fmt::format("{}; a fruit needs {}", usable, min_points));
   }
   Box bounds;
   for (const Vec3& p : points) bounds.extend(p);
@@ -45,11 +89,6 @@ Expected<void> check_scale(const std::vector<Vec3>& points, std::size_t all, int
         fmt::format("the whole cloud is {:.3g} m wide, less than a fruit: are the "
                     "coordinates in metres? (see --unit)",
                     extent));
-  }
-  // Voxel indices reach to ± 2²⁰ cells.
-  if (bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()).maxCoeff() > 2000.0) {
-    return fail(
-        "coordinates beyond 2000 m: are they in metres, about a nearby origin? (see --unit)");
   }
   return {};
 }
@@ -114,11 +153,10 @@ std::vector<std::vector<int>> groups_of(const std::vector<SurfacePoint>& surface
   return groups;
 }
 
-Rgb mean_color(const std::vector<Rgb>& colors, const std::vector<int>& points) {
-  if (colors.empty()) return {};
+Rgb mean_color(const std::vector<Rgb>& colors) {
   Eigen::Array3d sum = Eigen::Array3d::Zero();
-  for (const int i : points) sum += Eigen::Array3d(colors[i].r, colors[i].g, colors[i].b);
-  sum = sum / static_cast<double>(points.size()) + 0.5;
+  for (const Rgb& c : colors) sum += Eigen::Array3d(c.r, c.g, c.b);
+  sum = sum / static_cast<double>(colors.size()) + 0.5;
   return {static_cast<std::uint8_t>(sum[0]), static_cast<std::uint8_t>(sum[1]),
           static_cast<std::uint8_t>(sum[2])};
 }
@@ -130,9 +168,9 @@ Expected<CloudFruits> fit_cloud(const PointCloud& cloud, const CloudFitOptions& 
   FruitMapOptions limits = options.fruit;
   limits.min_height_m = -1e9;  // whoever has a cloud of fruits knows best
   if (auto ok = limits.validate(); !ok) return tl::unexpected(ok.error());
-  std::vector<std::size_t> index;
-  const std::vector<Vec3> points = finite_points(cloud, index);
-  if (auto ok = check_scale(points, cloud.points.size(), limits.min_points); !ok) {
+  const MeasuredPoints measured = measured_points(cloud);
+  const std::vector<Vec3>& points = measured.points;
+  if (auto ok = check_scale(measured, cloud.points.size(), limits.min_points); !ok) {
     return tl::unexpected(ok.error());
   }
   const double spacing = median_spacing(points);
@@ -142,12 +180,13 @@ Expected<CloudFruits> fit_cloud(const PointCloud& cloud, const CloudFitOptions& 
                     "(see --unit; a surface needs points at most {} m apart)",
                     spacing, kMaxSpacing_m));
   }
-  const Thinned thinned = thin(cloud, points, index, options, viewpoint);
+  const Thinned thinned = thin(cloud, points, measured.index, options, viewpoint);
   FitOptions fit_options;
   fit_options.prior = limits.prior;
   fit_options.max_points = options.fit_points;
   if (!options.upright) fit_options.prior.tilt_sd_rad = 10.0;
   CloudFruits result;
+  result.notices = notices_of(measured);
   for (const SurfacePoint& s : thinned.surface) {
     result.surface.points.push_back(s.point.cast<float>());
     result.surface.normals.push_back(s.normal.cast<float>());
@@ -172,7 +211,12 @@ Expected<CloudFruits> fit_cloud(const PointCloud& cloud, const CloudFitOptions& 
       e.points = static_cast<int>(own.size());
       e.views = 1;
       e.id = static_cast<int>(result.fruits.size());
-      e.color = mean_color(thinned.colors, own_index);
+      if (!thinned.colors.empty()) {
+        std::vector<Rgb> colors;
+        for (const int i : own_index) colors.push_back(thinned.colors[i]);
+        e.color = mean_color(colors);
+        e.ripeness = ripeness_of_surface(colors);
+      }
       SurfaceEvidence seen;
       seen.normal_spread = normal_spread(surface, separated.points);
       e.confidence =

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "canopeer/fruit/fruit_estimate.h"
@@ -23,12 +24,14 @@ struct CloudFruits {
   std::vector<int> fruit;  ///< id of the fruit each point of `surface` belongs to, −1: none
   std::vector<FruitEstimate> fruits;
   std::vector<std::vector<Vec3>> missing;  ///< of each fruit: points of its shape nobody saw
+  std::vector<std::string> notices;        ///< points left out, and how many
 };
 
 /// Finds the fruits in a cloud of fruit surface points and fits their shapes, as the fruit map
-/// does. Points that are not finite are left out. `viewpoint`: where they were seen from. The error
-/// says why there is nothing to fit: no points, none finite, too few, coordinates that cannot be
-/// metres.
+/// does. Colours, where there are any, tell the ripeness. Points that are not finite, a few beyond
+/// 2 km, and those at the origin when there are several, are left out and counted in the notices.
+/// `viewpoint`: where they were seen from. The error says why there is nothing to fit: no points,
+/// none finite, too few, coordinates that cannot be metres.
 [[nodiscard]] Expected<CloudFruits> fit_cloud(const PointCloud& cloud,
                                               const CloudFitOptions& options = {},
                                               const std::optional<Vec3>& viewpoint = {});

@@ -66,7 +66,7 @@ class ScanFusion {
     if (!scan_.points[i].allFinite()) return;
     const Vec3 p = scan_.T_world_points * scan_.points[i].cast<double>();
     const double range = (p - origin_).norm();
-    if (!(range > 0.0 && range >= options_.min_range_m)) return;
+    if (!(range > 0.0 && range >= options_.min_range_m && range < kNoReturn_m)) return;
     if (range > options_.max_range_m) {
       free_ray(origin_ + (p - origin_) * (options_.max_range_m / range), blocks);
       return;

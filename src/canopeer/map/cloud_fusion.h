@@ -17,6 +17,9 @@ struct CloudScan {
   std::span<const float> roi_confidence;
 };
 
+/// No sensor of a robot measures that far: 1e30 is what some write when nothing came back.
+inline constexpr double kNoReturn_m = 10000.0;
+
 struct CloudFusionOptions {
   double max_range_m = 3.0;         ///< farther points are no end points; space is freed up to here
   double min_range_m = 0.0;         ///< nearer points (the sensor's own housing) count for nothing
@@ -33,9 +36,9 @@ struct CloudFusionOptions {
 /// Fuses one scan as fuse_exact fuses a frame: every voxel at most once. Voxels that hold an end
 /// point get a hit; of the others, those that a ray crosses before its end get a miss. ROI log-odds
 /// change in voxels with end points that somebody looked at: a hit when one of them is fruit, else
-/// a miss. Points that are not finite or at the origin count for nothing. `roi_confidence` is empty
-/// or as long as `points`; check_placement() holds. In parallel; the result depends neither on the
-/// number of threads nor on the order of the points.
+/// a miss. Points that are not finite, at the origin or beyond kNoReturn_m count for nothing.
+/// `roi_confidence` is empty or as long as `points`; check_placement() holds. In parallel; the
+/// result depends neither on the number of threads nor on the order of the points.
 FuseResult fuse_cloud(VoxelMap& map, const CloudScan& scan, const CloudFusionOptions& options = {});
 
 }  // namespace canopeer

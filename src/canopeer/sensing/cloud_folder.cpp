@@ -6,6 +6,9 @@
 #include <utility>
 
 #include "canopeer/base/text_lines.h"
+#include "canopeer/sensing/files/pose_layout.h"
+#include "canopeer/sensing/files/timed_files.h"
+#include "canopeer/sensing/pose_check.h"
 
 namespace canopeer {
 namespace {
@@ -16,8 +19,7 @@ Expected<std::vector<fs::path>> clouds_in(const fs::path& directory) {
   std::error_code code;
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(directory, code)) {
-    const std::string ending = entry.path().extension().string();
-    if (ending == ".ply" || ending == ".pcd") files.push_back(entry.path());
+    if (is_cloud_of_scanner(entry.path())) files.push_back(entry.path());
   }
   if (code) return fail(directory.string() + ": cannot read: " + code.message());
   if (files.empty()) return fail(directory.string() + ": holds no .ply or .pcd files");
@@ -25,21 +27,13 @@ Expected<std::vector<fs::path>> clouds_in(const fs::path& directory) {
   return files;
 }
 
-// The folder's own trajectory, or nothing.
-fs::path trajectory_in(const fs::path& directory) {
-  for (const char* name : {"poses.txt", "trajectory.txt", "groundtruth.txt"}) {
-    std::error_code code;
-    if (fs::exists(directory / name, code)) return directory / name;
-  }
-  return {};
-}
-
 // The names as time stamps; nothing when they are other names.
 std::optional<std::vector<double>> times_of(const std::vector<fs::path>& files,
                                             const Trajectory& trajectory, double max_gap_s) {
   std::vector<double> times;
   for (const fs::path& file : files) {
-    const auto time_s = to_number(file.stem().string());
+    auto time_s = to_number(file.stem().string());
+    if (time_s) time_s = seconds_of_stamp(*time_s);
     const bool inside = time_s && *time_s >= trajectory.poses().front().time_s - max_gap_s &&
                         *time_s <= trajectory.poses().back().time_s + max_gap_s;
     if (!inside) return std::nullopt;
@@ -63,7 +57,10 @@ Expected<CloudFolder> open_cloud_folder(const fs::path& directory,
   const auto trajectory = Trajectory::read(path);
   if (!trajectory) return tl::unexpected(trajectory.error());
   const auto& poses = trajectory->poses();
-  const auto times = times_of(*files, *trajectory, options.max_pose_gap_s);
+  const auto times = trajectory->timed() ? times_of(*files, *trajectory, options.max_pose_gap_s)
+                                         : std::optional<std::vector<double>>();
+  folder.poses = {path, trajectory->taken(), trajectory->order_is_said(), trajectory->notices()};
+  if (times) add_motion_notice(*trajectory, folder.poses);
   if (!times && poses.size() != files->size()) {
     return fail(path.string() + ": has " + std::to_string(poses.size()) + " poses for " +
                 std::to_string(files->size()) +

@@ -6,13 +6,14 @@
 
 #include "canopeer/base/expected.h"
 #include "canopeer/sensing/cloud_file.h"
+#include "canopeer/sensing/pose_source.h"
 #include "canopeer/sensing/trajectory.h"
 
 namespace canopeer {
 
 struct CloudFolderOptions {
   double max_pose_gap_s = 0.25;  ///< between the poses before and after a cloud
-  /// Empty: poses.txt, trajectory.txt or groundtruth.txt of the folder, if there is one.
+  /// Empty: the folder's own (poses.txt, trajectory.txt …), if there is one.
   std::filesystem::path trajectory;
 };
 
@@ -26,6 +27,7 @@ struct CloudFrame {
 struct CloudFolder {
   std::vector<CloudFrame> frames;  ///< sorted by name
   PoseGaps gaps;                   ///< clouds that are no frames
+  PoseSource poses;                ///< its file is empty when the clouds say their poses themselves
 };
 
 /// Finds the `.ply` and `.pcd` files of a folder and their poses. With a trajectory there are two

@@ -187,7 +187,7 @@ Expected<DepthImage> parse_depth_png(std::string_view bytes, double units_per_m)
   DepthImage depth(static_cast<int>(header->width), static_cast<int>(header->height));
   for (std::size_t i = 0; i < depth.pixels().size(); ++i) {
     const int units = samples[2 * i] << 8 | samples[2 * i + 1];
-    depth.pixels()[i] = static_cast<float>(units / units_per_m);
+    depth.pixels()[i] = depth_of_units(units, units_per_m);
   }
   return depth;
 }

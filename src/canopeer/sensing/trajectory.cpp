@@ -5,36 +5,72 @@
 #include <cmath>
 
 #include "canopeer/base/atomic_file.h"
+#include "canopeer/base/plain_text.h"
 #include "canopeer/base/text_lines.h"
+#include "canopeer/sensing/files/pose_layout.h"
+#include "canopeer/sensing/files/table_dialect.h"
 
 namespace canopeer {
 namespace {
 
-constexpr char kExpected[] = "expected the 8 numbers `timestamp tx ty tz qx qy qz qw`";
+constexpr std::string_view kSeparators = " \t,;\"";
 
-Expected<TimedPose> pose_of(const std::vector<std::string_view>& words) {
-  std::array<double, 8> v{};
-  if (words.size() != v.size()) {
-    return fail(std::string(kExpected) + ", got " + std::to_string(words.size()) + " words");
-  }
-  for (std::size_t i = 0; i < v.size(); ++i) {
-    const auto number = to_number(words[i]);
-    if (!number || !std::isfinite(*number)) {
-      return fail(std::string(kExpected) + ", got \"" + std::string(words[i].substr(0, 40)) + "\"");
+bool are_numbers(const Words& words) {
+  return std::all_of(words.begin(), words.end(),
+                     [](std::string_view word) { return to_number(word).has_value(); });
+}
+
+/// Lines with something on them; comments may name columns.
+struct PoseLines {
+  std::vector<std::pair<int, Words>> lines;
+  std::optional<PoseLayout> head;
+};
+
+PoseLines pose_lines(std::string_view text) {
+  PoseLines result;
+  TextLines lines(text);
+  while (const auto line = lines.next()) {
+    const auto comment = comment_of(*line);
+    Words words = words_of(*line, kSeparators);
+    if (words.empty()) continue;
+    if (result.lines.empty() && (comment || !are_numbers(words))) {
+      if (auto head = layout_of_head(names_in(comment.value_or(*line)))) {
+        result.head = std::move(head);
+        continue;
+      }
     }
-    v[i] = *number;
+    if (!comment) result.lines.emplace_back(lines.number(), std::move(words));
   }
-  const Eigen::Quaterniond q(v[7], v[4], v[5], v[6]);
-  // Files have four digits or so; what is farther off is no rotation.
-  if (std::abs(q.norm() - 1.0) > 0.05) {
-    return fail("the quaternion qx qy qz qw has length " + std::to_string(q.norm()) +
-                ", expected 1");
+  return result;
+}
+
+/// Matrices of three or four lines of four numbers. What stands between them counts them.
+Expected<std::vector<TimedPose>> poses_of_blocks(const PoseLines& text, const std::string& name) {
+  std::vector<TimedPose> poses;
+  std::array<double, 12> matrix{};
+  std::size_t rows = 0;
+  for (const auto& [number, words] : text.lines) {
+    const auto here = [&, line = number](const std::string& message) {
+      return fail(name + ":" + std::to_string(line) + ": " + message);
+    };
+    if (!are_numbers(words)) return here("expected the numbers of a matrix");
+    if (words.size() != 4) {
+      if (words.size() > 3 || rows != 0) return here("expected 4 numbers, a line of a matrix");
+      continue;
+    }
+    std::array<double, 4> row{};
+    for (std::size_t i = 0; i < 4; ++i) row[i] = *to_number(words[i]);
+    const bool last_row = row == std::array<double, 4>{0.0, 0.0, 0.0, 1.0};
+    if (rows == 0 && last_row && !poses.empty()) continue;
+    std::copy(row.begin(), row.end(), matrix.begin() + static_cast<std::ptrdiff_t>(4 * rows));
+    if (++rows < 3) continue;
+    rows = 0;
+    const auto pose = pose_of_matrix(matrix);
+    if (!pose) return here(pose.error().message);
+    poses.push_back({static_cast<double>(poses.size()), *pose});
   }
-  TimedPose pose;
-  pose.time_s = v[0];
-  pose.T_world_camera.linear() = q.normalized().toRotationMatrix();
-  pose.T_world_camera.translation() = Vec3(v[1], v[2], v[3]);
-  return pose;
+  if (rows != 0) return fail(name + ": ends within a matrix: the file was cut off");
+  return poses;
 }
 
 Pose between(const TimedPose& a, const TimedPose& b, double time_s) {
@@ -57,23 +93,72 @@ Expected<Trajectory> Trajectory::read(const std::filesystem::path& path) {
 }
 
 Expected<Trajectory> Trajectory::parse(std::string_view text, const std::string& name) {
+  const PlainText plain(text);
+  if (!plain.is_text()) return fail(name + ": holds zero bytes: it is no text");
+  const PoseLines content = pose_lines(plain.view());
+  if (content.lines.empty()) {
+    return fail(name + ": holds no pose; expected `timestamp tx ty tz qx qy qz qw` in each line");
+  }
+  const Words& first = content.lines[0].second;
+  if (!content.head && std::none_of(first.begin(), first.end(), to_number)) {
+    return fail(name + ":" + std::to_string(content.lines[0].first) +
+                ": names no position and quaternion; expected columns such as timestamp, tx, ty, "
+                "tz, qx, qy, qz, qw");
+  }
   Trajectory trajectory;
-  TextLines lines(text);
-  while (const auto line = lines.next()) {
-    const auto words = words_of(*line, " \t,");
-    if (words.empty() || words[0][0] == '#') continue;
-    const std::string place = name + ":" + std::to_string(lines.number());
-    const auto pose = pose_of(words);
+  const std::size_t width = first.size();
+  if (!content.head && (width == 3 || width == 4)) {
+    auto poses = poses_of_blocks(content, name);
+    if (!poses) return tl::unexpected(poses.error());
+    if (poses->empty()) return fail(name + ": holds no pose");
+    trajectory.poses_ = *std::move(poses);
+    trajectory.timed_ = false;
+    trajectory.order_is_said_ = true;
+    trajectory.taken_ = "matrices of several lines, no time stamps: one for each frame";
+    return trajectory;
+  }
+  const auto layout = content.head ? content.head : layout_of_width(width);
+  if (!layout) {
+    return fail(name + ":" + std::to_string(content.lines[0].first) +
+                ": expected the 8 numbers `timestamp tx ty tz qx qy qz qw`, got " +
+                std::to_string(width) +
+                " words; for other columns, name them in a first line (timestamp, tx, ty, tz, qw, "
+                "qx, qy, qz)");
+  }
+  trajectory.timed_ = layout->time != PoseLayout::kNone;
+  trajectory.order_is_said_ = layout->order_is_said();
+  trajectory.taken_ = layout->taken;
+  int repeated = 0, first_repeated = 0;
+  for (const auto& [number, words] : content.lines) {
+    const std::string place = name + ":" + std::to_string(number);
+    auto pose = pose_of(words, *layout);
     if (!pose) return fail_in(place, pose.error());
-    if (!trajectory.poses_.empty() && !(pose->time_s > trajectory.poses_.back().time_s)) {
-      return fail(place + ": the time stamp is not later than the one before; sort the lines");
+    if (!trajectory.timed_) pose->time_s = static_cast<double>(trajectory.poses_.size());
+    const double after_s = trajectory.poses_.empty() ? -INFINITY : trajectory.poses_.back().time_s;
+    if (pose->time_s == after_s) {
+      if (repeated++ == 0) first_repeated = number;
+      continue;
+    }
+    if (!(pose->time_s > after_s)) {
+      return fail(place + ": the time stamp is earlier than the one before; sort the lines");
     }
     trajectory.poses_.push_back(*pose);
   }
-  if (trajectory.poses_.empty()) {
-    return fail(name + ": holds no pose; " + kExpected + " in each line");
+  if (repeated > 0) {
+    trajectory.notices_.push_back(name + ":" + std::to_string(first_repeated) + ": " +
+                                  std::to_string(repeated) +
+                                  " poses left out: the pose before has the same time stamp");
   }
   return trajectory;
+}
+
+bool Trajectory::counts_frames() const {
+  const double first = poses_.front().time_s;
+  if (!timed_ || poses_.size() < 2 || (first != 0.0 && first != 1.0)) return false;
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    if (poses_[i].time_s != first + static_cast<double>(i)) return false;
+  }
+  return true;
 }
 
 std::optional<Pose> Trajectory::at(double time_s, double max_gap_s) const {

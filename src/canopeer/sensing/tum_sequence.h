@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "canopeer/base/expected.h"
+#include "canopeer/sensing/pose_source.h"
 #include "canopeer/sensing/trajectory.h"
 
 namespace canopeer {
@@ -11,7 +12,7 @@ namespace canopeer {
 struct TumOptions {
   double max_difference_s = 0.02;    ///< between a depth image and its colour image
   double max_pose_gap_s = 0.25;      ///< between the poses before and after a depth image
-  std::filesystem::path trajectory;  ///< empty: groundtruth.txt of the sequence
+  std::filesystem::path trajectory;  ///< empty: the sequence's own
 };
 
 /// One depth image of a sequence, and what belongs to it.
@@ -27,13 +28,17 @@ struct TumSequence {
   std::vector<TumFrame> frames;  ///< in order of time; all have a pose
   int without_color = 0;         ///< of the frames
   PoseGaps gaps;                 ///< depth images that are no frames
+  PoseSource poses;
 };
 
-/// True when `directory` looks like such a sequence: it has depth.txt or associations.txt.
+/// True when `directory` looks like such a sequence: it has depth.txt or associations.txt, or a
+/// folder `depth`.
 [[nodiscard]] bool is_tum_sequence(const std::filesystem::path& directory);
 
-/// Reads which images there are (associations.txt, or depth.txt and rgb.txt), finds the colour
-/// image nearest in time and the pose of each depth image. Images are not opened, but must exist.
+/// Reads which images there are (associations.txt, or depth.txt and rgb.txt, or the folder `depth`
+/// with time stamps or any rising names; colour in `rgb` or `color`), finds the colour
+/// image nearest in time and the pose of each depth image. Poses without time stamps, or with such
+/// that only count them, go to the images in order. Images are not opened, but must exist.
 /// Fails on malformed lines (file:line), missing files, and when no depth image has a pose.
 [[nodiscard]] Expected<TumSequence> open_tum_sequence(const std::filesystem::path& directory,
                                                       const TumOptions& options = {});

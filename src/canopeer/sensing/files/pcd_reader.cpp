@@ -242,15 +242,10 @@ class PcdParser {
   }
 
   void set(const Field& field, double value) {
-    if (field.column != Column::rgb) {
+    if (field.column == Column::rgb) {
+      cloud_.set_packed_rgb(field.type, value);
+    } else {
       cloud_.set(*field.column, value);
-    } else if (is_real(field.type)) {  // 32 bits that were written as if they were a float
-      const auto real = static_cast<float>(value);
-      std::uint32_t bits = 0;
-      std::memcpy(&bits, &real, sizeof bits);
-      cloud_.set_packed_rgb(bits);
-    } else if (value >= 0.0 && value <= 4294967295.0) {
-      cloud_.set_packed_rgb(static_cast<std::uint32_t>(value));
     }
   }
 

@@ -249,10 +249,10 @@ class PlyParser {
   }
 
   void set(const Property& property, double value) {
-    if (*property.column != Column::rgb) {
+    if (property.column == Column::rgb) {
+      cloud_.set_packed_rgb(property.type, value);
+    } else {
       cloud_.set(*property.column, value);
-    } else if (value >= 0.0 && value <= 4294967295.0) {
-      cloud_.set_packed_rgb(static_cast<std::uint32_t>(value));
     }
   }
 

@@ -22,7 +22,8 @@ enum class NumberType : std::uint8_t { i8, u8, i16, u16, i32, u32, i64, u64, f32
 enum class Column : std::uint8_t { x, y, z, nx, ny, nz, red, green, blue, rgb, roi, fruit };
 inline constexpr std::size_t kColumns = 12;
 
-/// By the names PLY and PCD writers use; nothing for columns that are passed over.
+/// By the names that writers of clouds use, in small letters or capitals; nothing for columns that
+/// are passed over.
 [[nodiscard]] std::optional<Column> column_named(std::string_view name);
 
 /// Puts a cloud together from rows of numbers.
@@ -37,18 +38,23 @@ class CloudBuilder {
   void set(Column column, double value) { row_[index(column)] = value; }
   /// Colour packed into 32 bits, blue in the lowest byte.
   void set_packed_rgb(std::uint32_t bits);
+  /// The same from a number of the file: a real one holds the bits of a float.
+  void set_packed_rgb(NumberType type, double value);
   /// The row set is a point.
   void finish_point();
-  [[nodiscard]] CloudFile take() { return std::move(file_); }
+  /// All points. Colours that are not bytes go from 0 to 1, 255 or 65535, as the largest tells.
+  [[nodiscard]] CloudFile take();
 
  private:
   static constexpr std::size_t index(Column column) { return static_cast<std::size_t>(column); }
   [[nodiscard]] Eigen::Vector3f vector(Column first) const;
-  [[nodiscard]] std::uint8_t channel(Column column) const;
+  [[nodiscard]] double color_scale() const;
 
   std::array<bool, kColumns> present_{};
   std::array<NumberType, kColumns> types_{};
   std::array<double, kColumns> row_{};
+  bool wide_colors_ = false;
+  std::vector<Eigen::Vector3f> wide_;  // colours as they stand in the file
   CloudFile file_;
 };
 

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <system_error>
 #include <utility>
 
+#include "canopeer/base/plain_text.h"
 #include "canopeer/base/text_lines.h"
+#include "canopeer/sensing/files/pose_layout.h"
 
 namespace canopeer {
 namespace {
@@ -16,16 +19,19 @@ Expected<TimedFile> timed_file(std::string_view time, std::string_view file, int
     return fail("expected a time stamp in seconds, got \"" + std::string(time.substr(0, 40)) +
                 "\"");
   }
-  return TimedFile{*seconds, std::string(file), line};
+  return TimedFile{seconds_of_stamp(*seconds), std::string(file), line};
 }
 
 // Calls `take(words, line number)` for every line with something on it.
 template <typename Take>
 Expected<void> for_each_line(std::string_view text, const std::string& name, Take&& take) {
-  TextLines lines(text);
+  const PlainText plain(text);
+  TextLines lines(plain.view());
   while (const auto line = lines.next()) {
-    const auto words = words_of(*line);
+    auto words = words_of(*line);
     if (words.empty() || words[0][0] == '#') continue;
+    // EuRoC puts a comma behind the time stamp.
+    if (words[0].find(',') != std::string_view::npos) words = words_of(*line, " \t,");
     if (const Expected<void> done = take(words, lines.number()); !done) {
       return fail_in(name + ":" + std::to_string(lines.number()), done.error());
     }
@@ -75,6 +81,21 @@ Expected<std::vector<AssociatedFiles>> parse_associations(std::string_view text,
     return a.depth.time_s < b.depth.time_s;
   });
   return all;
+}
+
+std::filesystem::path trajectory_in(const std::filesystem::path& directory,
+                                    std::vector<std::string> names) {
+  for (const char* ending : {".txt", ".csv"}) {
+    for (const char* stem : {"poses", "pose", "trajectory", "groundtruth"}) {
+      names.push_back(std::string(stem) + ending);
+    }
+  }
+  names.emplace_back("trajectory.log");
+  for (const std::string& name : names) {
+    std::error_code code;
+    if (std::filesystem::exists(directory / name, code)) return directory / name;
+  }
+  return {};
 }
 
 std::size_t nearest_in_time(const std::vector<TimedFile>& files, double time_s,
