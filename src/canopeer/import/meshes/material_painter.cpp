@@ -1,31 +1,20 @@
 #include "canopeer/import/meshes/material_painter.h"
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
+
+#include "canopeer/import/meshes/percent_encoding.h"
 
 namespace canopeer {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// "file:///a%20b\c.png" → "/a b/c.png".
+/// "file:///a%20b\\c.png" → "/a b/c.png".
 std::string plain_path(std::string reference) {
   if (reference.starts_with("file://")) reference.erase(0, 7);
   std::replace(reference.begin(), reference.end(), '\\', '/');
-  std::string plain;
-  for (std::size_t i = 0; i < reference.size(); ++i) {
-    const auto hex = [&](std::size_t k) {
-      return k < reference.size() && std::isxdigit(static_cast<unsigned char>(reference[k])) != 0;
-    };
-    if (reference[i] == '%' && hex(i + 1) && hex(i + 2)) {
-      plain += static_cast<char>(std::stoi(reference.substr(i + 1, 2), nullptr, 16));
-      i += 2;
-    } else {
-      plain += reference[i];
-    }
-  }
-  return plain;
+  return percent_decoded(reference);
 }
 
 /// Where model folders keep their textures, seen from the mesh.

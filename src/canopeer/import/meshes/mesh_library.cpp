@@ -9,7 +9,12 @@
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <fstream>
 #include <stdexcept>
+
+#include "canopeer/base/atomic_file.h"
+#include "canopeer/import/meshes/plain_gltf.h"
+#include "canopeer/import/meshes/plain_ply.h"
 
 namespace canopeer {
 namespace {
@@ -47,9 +52,31 @@ void repair_faces(aiMesh& mesh) {
   mesh.mNumFaces = kept;
 }
 
+/// A file in other words where the library would take it wrong; empty: as it is.
+struct PlainFile {
+  std::string bytes;
+  const char* format = "";
+};
+
+PlainFile plain_file(const fs::path& path, MaterialDialect dialect) {
+  if (dialect == MaterialDialect::gltf) return {plain_gltf(path), "glb"};
+  std::string first(3, ' ');
+  std::ifstream(path, std::ios::binary).read(first.data(), 3);
+  if (first != "ply") return {};
+  const auto bytes = read_file(path);
+  if (!bytes) throw std::runtime_error(bytes.error().message);
+  return {plain_ply(*bytes), "ply"};
+}
+
 /// The file's scene, all of it triangles; nullptr when the library cannot read it.
-const aiScene* read_triangles(Assimp::Importer& importer, const fs::path& path) {
-  if (importer.ReadFile(path.string(), aiProcess_ValidateDataStructure) == nullptr) return nullptr;
+const aiScene* read_triangles(Assimp::Importer& importer, const fs::path& path,
+                              const PlainFile& plain) {
+  constexpr unsigned kFirst = aiProcess_ValidateDataStructure;
+  const aiScene* const read =
+      plain.bytes.empty() ? importer.ReadFile(path.string(), kFirst)
+                          : importer.ReadFileFromMemory(plain.bytes.data(), plain.bytes.size(),
+                                                        kFirst, plain.format);
+  if (read == nullptr) return nullptr;
   const aiScene* const scene = importer.GetScene();
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) repair_faces(*scene->mMeshes[i]);
   return importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
@@ -170,7 +197,7 @@ FileMesh read_with_library(const fs::path& path, const RootFrame& frame, Materia
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  const aiScene* const scene = read_triangles(importer, path);
+  const aiScene* const scene = read_triangles(importer, path, plain_file(path, dialect));
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw std::runtime_error(importer.GetErrorString());
   }
