@@ -1,6 +1,7 @@
 #include "canopeer/import/sdf/sdf_tree.h"
 
 #include <algorithm>
+#include <set>
 
 #include "canopeer/import/sdf/sdf_numbers.h"
 #include "canopeer/import/sdf/sdf_population.h"
@@ -61,6 +62,7 @@ class TreeReader {
   Expected<std::optional<ModelSource>> included(const SdfElement& include);
   void leave_out(const SdfElement& element);
   void note_what_is_left_out();
+  Expected<void> check_that_all_is_there() const;
 
   SdfIncludes& includes_;
   SdfTree tree_;
@@ -68,6 +70,8 @@ class TreeReader {
   std::size_t depth_ = 0;
   std::size_t models_ = 0;
   std::map<std::string, std::vector<std::string>> left_out_;  ///< names by tag
+  std::set<std::string> missing_;                             ///< addresses of models
+  Error first_missing_;
 };
 
 Expected<void> TreeReader::add_link(const SdfElement& link, SdfScope* scope) {
@@ -113,10 +117,13 @@ Expected<void> TreeReader::add_model(const ModelSource& source, SdfScope* scope)
 /// Nothing: no model, but something that needs none.
 Expected<std::optional<ModelSource>> TreeReader::included(const SdfElement& include) {
   const auto file = includes_.find(include);
-  if (!file && !includes_.exists(include)) {
+  if (!file && !include.child("uri").text().empty() && !includes_.exists(include)) {
     if (everybody_has(include, "sun")) return std::nullopt;
     tree_.lacks_ground = tree_.lacks_ground || everybody_has(include, "ground_plane");
     if (everybody_has(include, "ground_plane")) return std::nullopt;
+    if (missing_.empty()) first_missing_ = file.error();
+    missing_.insert(include.child("uri").text());
+    return std::nullopt;  // all that are missing are said at once, at the end
   }
   if (!file) return tl::unexpected(file.error());
   if ((*file)->is_urdf()) {
@@ -173,6 +180,7 @@ Expected<void> TreeReader::add_population(const SdfElement& population, SdfScope
     if (!found) return tl::unexpected(found.error());
     source = std::move(*found);
   }
+  if (!source && !missing_.empty()) return {};
   if (!source) return fail(population.where() + ": <population>: expected a <model>");
   // No name of an element can have a line's end in it.
   const std::string frame = "\npopulation " + std::to_string(scope->frames.size());
@@ -231,10 +239,21 @@ void TreeReader::note_what_is_left_out() {
   }
 }
 
+Expected<void> TreeReader::check_that_all_is_there() const {
+  if (missing_.empty()) return {};
+  std::string text = first_missing_.message;
+  if (missing_.size() > 1) {
+    text += "; missing in all: " + std::to_string(missing_.size()) + " models:";
+    for (const std::string& uri : missing_) text += " " + uri;
+  }
+  return fail(text);
+}
+
 Expected<SdfTree> TreeReader::read(const SdfElement& world) {
   tree_.world = std::make_unique<SdfScope>();
   chain_.push_back(world.file().path());
   if (auto ok = fill(world, tree_.world.get()); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check_that_all_is_there(); !ok) return tl::unexpected(ok.error());
   note_what_is_left_out();
   return std::move(tree_);
 }
