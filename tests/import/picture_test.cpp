@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <webp/encode.h>
 
+#include "canopeer/base/rng.h"
 #include "canopeer/import/meshes/texture_file.h"
 
 namespace canopeer {
@@ -124,6 +125,24 @@ TEST(Picture, BombsAreTooBig) {
     const auto texture = decode_texture(bomb, "bomb.tga");
     ASSERT_FALSE(texture.has_value());
     EXPECT_EQ(texture.error().message, "bomb.tga: the picture is too big");
+  }
+}
+
+TEST(Picture, DamagedOnesAreReadOrRefused) {
+  Rng rng(1, "damaged pictures");
+  for (const Bytes& good : {bottom_up_tga(), bmp(), psd(), gif()}) {
+    for (int i = 0; i < 30; ++i) {
+      Bytes bad = good;
+      for (int k = 0; k < 3; ++k) {
+        const std::size_t at = rng.index(bad.size());
+        // A header that promises a huge picture is no news and takes its time.
+        if (at < 12 || at > 26) bad[at] = static_cast<char>(rng.index(256));
+      }
+      const auto texture = decode_texture(bad, "bad.pic");
+      if (!texture) {
+        EXPECT_EQ(texture.error().message.find("bad.pic: "), 0U);
+      }
+    }
   }
 }
 

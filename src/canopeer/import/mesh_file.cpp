@@ -113,7 +113,8 @@ Expected<MeshFile> read_mesh_file(const fs::path& path, const MeshFileOptions& o
   if (auto ok = check_kind(path); !ok) return tl::unexpected(ok.error());
   auto mesh = read_guarded(path, options);
   if (!mesh) return tl::unexpected(mesh.error());
-  if (mesh->parts.empty()) return fail(path.string() + ": holds no triangles");
+  if (mesh->parts.empty())
+    return fail(path.string() + ": holds no triangles: only points or lines, or nothing");
   MeshFile file;
   for (const std::string& notice : mesh->notices)
     file.notices.push_back(path.string() + ": " + notice);

@@ -59,6 +59,8 @@ constexpr std::array kSignatures = {
     Signature{0, "OFF\n"sv, "an OFF mesh", kOtherMesh},
     Signature{0, "OFF\r\n"sv, "an OFF mesh", kOtherMesh},
     Signature{0, "\xff\xfe\xff\x0eS\0k\0e\0t\0c\0h\0U\0p\0"sv, "a SketchUp model", kOtherMesh},
+    Signature{0, "\xff\xfe"sv, "text in UTF-16", "; save it in UTF-8"},
+    Signature{0, "\xfe\xff"sv, "text in UTF-16", "; save it in UTF-8"},
     Signature{0, "\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"sv, "a document of 3ds Max or SolidWorks",
               kOtherMesh},
     Signature{0, "ISO-10303-21"sv, "STEP", kSolid},

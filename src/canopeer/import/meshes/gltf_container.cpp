@@ -64,13 +64,16 @@ std::string from_base64(std::string_view text) {
 
 }  // namespace
 
+bool is_old_binary_gltf(std::string_view bytes) {
+  return bytes.starts_with("glTF") && bytes.size() >= 8 && word_at(bytes, 4) == 1;
+}
+
 GltfContainer read_gltf_container(std::string_view bytes) {
   GltfContainer container;
   if (!bytes.starts_with("glTF")) {
     container.json = bytes;
     return container;
   }
-  if (word_at(bytes, 4) != 2) throw std::runtime_error("glTF 1.0 in binary is not read");
   for (std::size_t at = 12; at + 8 <= bytes.size();) {
     const std::size_t size = word_at(bytes, at);
     const std::uint32_t kind = word_at(bytes, at + 4);

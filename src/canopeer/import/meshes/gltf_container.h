@@ -13,7 +13,10 @@ struct GltfContainer {
   std::string binary;  ///< of binary glTF; else empty
 };
 
-/// Throws std::runtime_error over lengths that do not fit, and over glTF's first version in binary.
+/// Whether it is binary glTF 1.0, whose parts lie otherwise.
+[[nodiscard]] bool is_old_binary_gltf(std::string_view bytes);
+
+/// Throws std::runtime_error over lengths that do not fit.
 [[nodiscard]] GltfContainer read_gltf_container(std::string_view bytes);
 
 /// Binary glTF 2.0 of the two parts.

@@ -82,6 +82,14 @@ const aiScene* read_triangles(Assimp::Importer& importer, const fs::path& path,
   return importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
 }
 
+/// Whether the library refuses a file because there are only points and lines in it, or nothing.
+bool is_without_triangles(const std::string& reason) {
+  constexpr std::array kReasons = {"No meshes remaining", "contains no faces", "mNumMeshes is 0",
+                                   "has no faces"};
+  return std::any_of(kReasons.begin(), kReasons.end(),
+                     [&](const char* words) { return reason.find(words) != std::string::npos; });
+}
+
 /// One assimp mesh in its own frame. Faces that are no triangles or point outside are left out.
 MeshPiece to_piece(const aiMesh& from) {
   MeshPiece piece;
@@ -198,6 +206,7 @@ FileMesh read_with_library(const fs::path& path, const RootFrame& frame, Materia
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const aiScene* const scene = read_triangles(importer, path, plain_file(path, dialect));
+  if (scene == nullptr && is_without_triangles(importer.GetErrorString())) return {};
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw std::runtime_error(importer.GetErrorString());
   }

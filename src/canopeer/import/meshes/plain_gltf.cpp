@@ -25,10 +25,10 @@ constexpr const char* kTransform = "KHR_texture_transform";
 
 /// What a file may need and gets here: what is read, and what changes no surface and no base
 /// colour.
-constexpr std::array<std::string_view, 9> kKnown = {
-    "KHR_mesh_quantization", "KHR_texture_transform", "KHR_texture_basisu",
-    "EXT_texture_webp",      "EXT_texture_avif",      "MSFT_texture_dds",
-    "KHR_lights_punctual",   "KHR_xmp_json_ld",       "KHR_animation_pointer"};
+constexpr std::array<std::string_view, 11> kKnown = {
+    "KHR_mesh_quantization", "KHR_texture_transform", "KHR_texture_basisu",  "EXT_texture_webp",
+    "EXT_texture_avif",      "MSFT_texture_dds",      "KHR_lights_punctual", "KHR_xmp_json_ld",
+    "KHR_animation_pointer", "KHR_technique_webgl",   "KHR_techniques_webgl"};
 
 struct Packing {
   std::string_view extension;
@@ -110,6 +110,7 @@ class Plainer {
   void plain_primitive(json* primitive);
   void plain_attribute(const char* name, json* attributes);
   void place_texture(json* primitive);
+  void drop_other_coordinates(json* attributes);
   std::size_t add_numbers(const std::vector<float>& numbers, std::size_t width);
   const std::vector<std::string>& buffers();
   [[nodiscard]] std::string merged();
@@ -233,6 +234,14 @@ void Plainer::plain_primitive(json* primitive) {
   }
   for (const char* name : {"POSITION", "NORMAL", "TEXCOORD_0"}) plain_attribute(name, &attributes);
   place_texture(primitive);
+  if (!attributes.contains("TEXCOORD_0")) drop_other_coordinates(&attributes);
+}
+
+/// The library refuses a second set without a first.
+void Plainer::drop_other_coordinates(json* attributes) {
+  for (int set = 1; attributes->erase("TEXCOORD_" + std::to_string(set)) > 0; ++set) {
+    changed_ = true;
+  }
 }
 
 /// One buffer of all.
@@ -258,11 +267,13 @@ std::string Plainer::merged() {
 std::string Plainer::say() {
   const auto bytes = read_file(path_);
   if (!bytes) throw std::runtime_error(bytes.error().message);
+  if (is_old_binary_gltf(*bytes)) return {};
   GltfContainer container = read_gltf_container(*bytes);
   binary_ = std::move(container.binary);
   file_ = json::parse(container.json);
   const std::string version = file_.value("asset", json::object()).value("version", std::string());
-  if (version.starts_with('1')) return {};
+  const auto meshes = file_.find("meshes");
+  if (version.starts_with('1') || (meshes != file_.end() && meshes->is_object())) return {};
   check_needs(file_);
   const bool named_binary = path_.extension() == ".glb" || path_.extension() == ".GLB";
   changed_ = bytes->starts_with("glTF") != named_binary;

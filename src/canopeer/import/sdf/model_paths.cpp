@@ -74,10 +74,8 @@ std::string ModelPaths::searched(const std::string& uri, const fs::path& folder)
   if (text.empty()) text = "no --model-path was given";
   const auto address = parse_fuel_address(uri);
   if (!address) return text;
-  return "the network is not read; fetch the model with 'gz fuel download -u <its address>', or "
-         "put "
-         "its folder, '" +
-         address->folder_name() + "', under a --model-path; " + text;
+  return "the network is not read; fetch the model with 'gz fuel download -u \"" + uri +
+         "\"', or put its folder, '" + address->folder_name() + "', under a --model-path; " + text;
 }
 
 }  // namespace canopeer

@@ -137,6 +137,7 @@ Expected<std::optional<TriangleMesh>> primitive(const SdfElement& shape,
   const std::string_view kind = shape.tag();
   if (kind == "cylinder") return round(shape, cylinder_mesh);
   if (kind == "capsule") return round(shape, capsule_mesh);
+  if (kind == "cone") return round(shape, cone_mesh);
   if (kind == "plane") return plane(shape);
   if (kind == "polyline") return polyline(shape, geometry);
   if (kind == "sphere") {
@@ -154,7 +155,7 @@ Expected<std::optional<TriangleMesh>> primitive(const SdfElement& shape,
 /// The first child that SDF knows as a shape, else the first.
 SdfElement shape_in(const SdfElement& geometry) {
   for (const char* kind :
-       {"mesh", "box", "sphere", "ellipsoid", "cylinder", "capsule", "plane", "polyline"}) {
+       {"mesh", "box", "sphere", "ellipsoid", "cylinder", "capsule", "cone", "plane", "polyline"}) {
     if (const SdfElement shape = geometry.child(kind)) return shape;
   }
   const auto children = geometry.children();
@@ -188,7 +189,7 @@ Expected<bool> read_sdf_shape(const SdfElement& from, const ModelPaths& paths, S
   notices->push_back(visual->where + ": <" + std::string(shape.tag()) + ">: visual '" +
                      visual->names.visual + "' of model '" + visual->names.model +
                      "' is left out: expected a mesh, box, sphere, ellipsoid, cylinder, capsule, "
-                     "plane or one polyline");
+                     "cone, plane or one polyline");
   return false;
 }
 
