@@ -91,6 +91,20 @@ TEST_F(FieldFuelWorld, AllMissingModelsAreSaidAtOnce) {
       << world.error().message;
 }
 
+TEST_F(FieldFuelWorld, AllMissingMeshesAreSaidAtOnce) {
+  const auto world =
+      files_.add_world("<model name=\"m\"><link name=\"l\">" + test::mesh_visual("a.dae") +
+                       "</link><link name=\"k\">" + test::mesh_visual("b.dae") + "</link></model>");
+  const auto read = read_sdf_world(world, ModelPaths({}));
+  ASSERT_FALSE(read.has_value());
+  for (const char* words :
+       {"world.world:4: <mesh><uri>a.dae: no such file; visual 'visual' of model "
+        "'m' refers to it (searched: ",
+        "; missing in all: 2 meshes: a.dae b.dae"}) {
+    EXPECT_NE(read.error().message.find(words), std::string::npos) << read.error().message;
+  }
+}
+
 TEST_F(FieldFuelWorld, MeshesHaveAddressesOnTheNetworkToo) {
   const std::string folder = "fuel/fuel.gazebosim.org/openrobotics/models/pepper/1/";
   const auto mesh = files_.add(folder + "meshes/my pepper.obj", "x");

@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
+#include "canopeer/base/rng.h"
+#include "canopeer/import/meshes/plain_gltf.h"
 #include "field_meshes.h"
 
 namespace canopeer {
@@ -129,6 +133,36 @@ TEST(FieldGltf, WhatIsDamagedIsSaidInOurWords) {
   std::string text = test::gltf_text(cube);
   text.replace(text.find("\"count\":8"), 9, "\"count\":9999");
   EXPECT_NE(error(text).find("beyond the end of its buffer"), std::string::npos) << error(text);
+}
+
+/// Digits and words of the format in each other's places: no crash, whatever the numbers say.
+TEST(FieldGltf, DamagedTextsAreSaidOtherwiseOrRefused) {
+  const test::WorldFiles files;
+  test::GltfCube cube;
+  cube.component = 5122;
+  cube.sparse = true;
+  cube.texture = R"({"index":0,"extensions":{"KHR_texture_transform":{"offset":[0.5,0]}}})";
+  files.add("cube.bin", test::gltf_numbers_of(cube));
+  const std::string good = test::gltf_text(cube);
+  const std::vector<std::string> words = {"4294967296", "-1",   "5121", "null", "[]",
+                                          "{}",         "9e99", "0",    "\"\"", "\"VEC2\""};
+  Rng rng(1, "damaged glTF");
+  int said = 0;
+  for (int i = 0; i < 400; ++i) {
+    std::string bad = good;
+    for (std::size_t hits = 1 + rng.index(3); hits > 0; --hits) {
+      const std::size_t at = bad.find_first_of("0123456789", rng.index(bad.size()));
+      if (at == std::string::npos) continue;
+      bad.replace(at, bad.find_first_not_of("0123456789.", at) - at,
+                  words[rng.index(words.size())]);
+    }
+    try {
+      said += plain_gltf(files.add("cube.gltf", bad)).empty() ? 0 : 1;
+    } catch (const std::runtime_error& error) {
+      EXPECT_STRNE(error.what(), "");
+    }
+  }
+  EXPECT_GT(said, 10);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include "canopeer/import/sdf/sdf_tree.h"
 
 #include <algorithm>
-#include <set>
 
+#include "canopeer/import/sdf/missing_files.h"
 #include "canopeer/import/sdf/sdf_numbers.h"
 #include "canopeer/import/sdf/sdf_population.h"
 
@@ -62,7 +62,6 @@ class TreeReader {
   Expected<std::optional<ModelSource>> included(const SdfElement& include);
   void leave_out(const SdfElement& element);
   void note_what_is_left_out();
-  Expected<void> check_that_all_is_there() const;
 
   SdfIncludes& includes_;
   SdfTree tree_;
@@ -70,8 +69,7 @@ class TreeReader {
   std::size_t depth_ = 0;
   std::size_t models_ = 0;
   std::map<std::string, std::vector<std::string>> left_out_;  ///< names by tag
-  std::set<std::string> missing_;                             ///< addresses of models
-  Error first_missing_;
+  MissingFiles missing_;                                      ///< models
 };
 
 Expected<void> TreeReader::add_link(const SdfElement& link, SdfScope* scope) {
@@ -121,9 +119,8 @@ Expected<std::optional<ModelSource>> TreeReader::included(const SdfElement& incl
     if (everybody_has(include, "sun")) return std::nullopt;
     tree_.lacks_ground = tree_.lacks_ground || everybody_has(include, "ground_plane");
     if (everybody_has(include, "ground_plane")) return std::nullopt;
-    if (missing_.empty()) first_missing_ = file.error();
-    missing_.insert(include.child("uri").text());
-    return std::nullopt;  // all that are missing are said at once, at the end
+    missing_.add(include.child("uri").text(), file.error());
+    return std::nullopt;
   }
   if (!file) return tl::unexpected(file.error());
   if ((*file)->is_urdf()) {
@@ -239,21 +236,11 @@ void TreeReader::note_what_is_left_out() {
   }
 }
 
-Expected<void> TreeReader::check_that_all_is_there() const {
-  if (missing_.empty()) return {};
-  std::string text = first_missing_.message;
-  if (missing_.size() > 1) {
-    text += "; missing in all: " + std::to_string(missing_.size()) + " models:";
-    for (const std::string& uri : missing_) text += " " + uri;
-  }
-  return fail(text);
-}
-
 Expected<SdfTree> TreeReader::read(const SdfElement& world) {
   tree_.world = std::make_unique<SdfScope>();
   chain_.push_back(world.file().path());
   if (auto ok = fill(world, tree_.world.get()); !ok) return tl::unexpected(ok.error());
-  if (auto ok = check_that_all_is_there(); !ok) return tl::unexpected(ok.error());
+  if (auto ok = missing_.check("models"); !ok) return tl::unexpected(ok.error());
   note_what_is_left_out();
   return std::move(tree_);
 }
