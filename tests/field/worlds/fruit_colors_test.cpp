@@ -28,6 +28,16 @@ TEST(FieldFruitColors, RedIsSeenAndNothingIsSaid) {
   EXPECT_FALSE(fruit_color_notice(scene, {}).has_value());
 }
 
+TEST(FieldFruitColors, CapitalsInAPicturesNameDoNotMatter) {
+  const test::WorldFiles files;
+  files.add("fruit.mtl", "newmtl fruit\nmap_Kd C:\\models\\FRUIT.tga\n");
+  files.add("textures/Fruit.TGA", test::tga({200, 30, 10}));
+  const auto read =
+      test::import_all_as_fruit(files.add("fruit.obj", test::cube_obj("fruit", "fruit.mtl")));
+  EXPECT_EQ(read.error, "");
+  EXPECT_EQ(look_at_fruits(read.world.scene, {}).seen, 1);
+}
+
 TEST(FieldFruitColors, AMissingPictureIsSaidWithNumbers) {
   const auto notice = fruit_color_notice(cube_with(""), {});
   ASSERT_TRUE(notice.has_value());

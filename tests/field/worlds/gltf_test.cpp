@@ -99,6 +99,26 @@ TEST(FieldGltf, FilesOfNumbersAreFoundByTheirEncodedName) {
   EXPECT_EQ(read.world.scene.fruits.size(), 1U);
 }
 
+TEST(FieldGltf, BinaryFilesMayForgetToFillUpWords) {
+  const test::WorldFiles files;
+  test::GltfCube cube;
+  std::string text = test::gltf_text(cube);
+  const std::string uri = R"(,"uri":"cube.bin")";
+  text.erase(text.find(uri), uri.size());
+  text += std::string(5 - text.size() % 4, ' ');  // one byte more than whole words
+  const auto word = [](std::size_t value) {
+    const auto number = static_cast<std::uint32_t>(value);
+    return std::string(reinterpret_cast<const char*>(&number), sizeof number);
+  };
+  const std::string numbers = test::gltf_numbers_of(cube);
+  const std::string chunks =
+      word(text.size()) + "JSON" + text + word(numbers.size()) + std::string("BIN\0", 4) + numbers;
+  const auto read = test::import_all_as_fruit(
+      files.add("cube.glb", "glTF" + word(2) + word(12 + chunks.size()) + chunks));
+  ASSERT_EQ(read.error, "");
+  EXPECT_EQ(read.world.scene.fruits.size(), 1U);
+}
+
 TEST(FieldGltf, WhatAFileNeedsAndNobodyKnowsIsRefused) {
   const test::WorldFiles files;
   for (const auto& [name, words] :

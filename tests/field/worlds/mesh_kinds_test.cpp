@@ -37,6 +37,32 @@ TEST(FieldMeshes, PlyDataMayBeginWithAnEndOfLine) {
   }
 }
 
+TEST(FieldMeshes, ThePictureOfAPlyIsFound) {
+  const test::WorldFiles files;
+  files.add("my skin.tga", test::tga({200, 30, 10}));
+  const auto read = test::import_all_as_fruit(files.add(
+      "leaf.ply",
+      "ply\nformat ascii 1.0\ncomment TextureFile my skin.tga\nelement vertex 3\nproperty float x\n"
+      "property float y\nproperty float z\nproperty float s\nproperty float t\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n"
+      "3 0 1 2\n"));
+  ASSERT_EQ(read.error, "");
+  ASSERT_NE(read.world.scene.parts.front().texture, nullptr);
+  EXPECT_EQ(read.world.scene.parts.front().texture->color.at(0, 0), (Rgb{200, 30, 10}));
+}
+
+TEST(FieldMeshes, FacesOfPointsAndLinesDoNotRefuseAMesh) {
+  const test::WorldFiles files;
+  const auto mixed = test::import_all_as_fruit(
+      files.add("mixed.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1\nf 1 2\nf 1 2 3\n"));
+  EXPECT_EQ(mixed.error, "");
+  EXPECT_EQ(mixed.world.scene.triangle_count(), 1U);
+  for (const char* none : {"v 0 0 0\np 1\n", "v 0 0 0\nv 1 0 0\nl 1 2\n", "v 0 0 0\n"}) {
+    const std::string error = test::import_all_as_fruit(files.add("none.obj", none)).error;
+    EXPECT_NE(error.find("none.obj: holds no triangles"), std::string::npos) << error;
+  }
+}
+
 TEST(FieldMeshes, OtherKindsAreNamedByTheirContent) {
   const test::WorldFiles files;
   const std::vector<std::pair<std::string, std::string>> kinds = {

@@ -83,6 +83,7 @@ GltfContainer read_gltf_container(std::string_view bytes) {
     if (kind == kBinaryChunk && container.binary.empty()) {
       container.binary = bytes.substr(at, size);
     }
+    if (size % 4 != 0) container.aligned = false;
     at += size;
   }
   return container;

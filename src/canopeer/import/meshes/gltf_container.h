@@ -11,6 +11,8 @@ namespace canopeer {
 struct GltfContainer {
   std::string json;
   std::string binary;  ///< of binary glTF; else empty
+  /// Whether its parts have whole words as binary glTF must; some writers forget it.
+  bool aligned = true;
 };
 
 /// Whether it is binary glTF 1.0, whose parts lie otherwise.

@@ -68,24 +68,34 @@ PlainFile plain_file(const fs::path& path, MaterialDialect dialect) {
   return {plain_ply(*bytes), "ply"};
 }
 
+const aiScene* parse(Assimp::Importer& importer, const fs::path& path, const PlainFile& plain,
+                     unsigned steps) {
+  if (plain.bytes.empty()) return importer.ReadFile(path.string(), steps);
+  return importer.ReadFileFromMemory(plain.bytes.data(), plain.bytes.size(), steps, plain.format);
+}
+
 /// The file's scene, all of it triangles; nullptr when the library cannot read it.
 const aiScene* read_triangles(Assimp::Importer& importer, const fs::path& path,
                               const PlainFile& plain) {
-  constexpr unsigned kFirst = aiProcess_ValidateDataStructure;
-  const aiScene* const read =
-      plain.bytes.empty() ? importer.ReadFile(path.string(), kFirst)
-                          : importer.ReadFileFromMemory(plain.bytes.data(), plain.bytes.size(),
-                                                        kFirst, plain.format);
-  if (read == nullptr) return nullptr;
+  constexpr unsigned kCheck = aiProcess_ValidateDataStructure;
+  unsigned later = aiProcess_Triangulate | aiProcess_SortByPType;
+  if (parse(importer, path, plain, kCheck) == nullptr) {
+    // Its own reader of OBJ miscounts kinds of faces, which is put right below and checked then.
+    const std::string reason = importer.GetErrorString();
+    if (reason.find("does not report the") == std::string::npos) return nullptr;
+    if (parse(importer, path, plain, 0) == nullptr) return nullptr;
+    later |= kCheck;
+  }
   const aiScene* const scene = importer.GetScene();
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) repair_faces(*scene->mMeshes[i]);
-  return importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
+  return importer.ApplyPostProcessing(later);
 }
 
 /// Whether the library refuses a file because there are only points and lines in it, or nothing.
 bool is_without_triangles(const std::string& reason) {
-  constexpr std::array kReasons = {"No meshes remaining", "contains no faces", "mNumMeshes is 0",
-                                   "has no faces"};
+  constexpr std::array kReasons = {"No meshes remaining",         "contains no faces",
+                                   "contains no vertices",        "mNumMeshes is 0",
+                                   "There are no facets defined", "has no faces"};
   return std::any_of(kReasons.begin(), kReasons.end(),
                      [&](const char* words) { return reason.find(words) != std::string::npos; });
 }

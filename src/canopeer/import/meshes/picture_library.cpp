@@ -61,14 +61,14 @@ PlainPicture read_with_stb(std::string_view bytes) {
   Source head{bytes};
   if (stbi_info_from_callbacks(&kCallbacks, &head, &picture.width, &picture.height, &channels) ==
       0) {
-    refuse(std::string("is damaged: ") + stbi_failure_reason());
+    refuse(std::string("cannot be read: ") + stbi_failure_reason());
   }
   check_size(picture.width, picture.height);
   Source source{bytes};
   const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
       stbi_load_from_callbacks(&kCallbacks, &source, &picture.width, &picture.height, &channels, 4),
       stbi_image_free);
-  if (pixels == nullptr) refuse(std::string("is damaged: ") + stbi_failure_reason());
+  if (pixels == nullptr) refuse(std::string("cannot be read: ") + stbi_failure_reason());
   if (source.ran_out) refuse("is damaged: it is cut off");
   check_size(picture.width, picture.height);
   picture.alpha = channels == 2 || channels == 4;

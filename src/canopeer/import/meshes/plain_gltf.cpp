@@ -276,7 +276,7 @@ std::string Plainer::say() {
   if (version.starts_with('1') || (meshes != file_.end() && meshes->is_object())) return {};
   check_needs(file_);
   const bool named_binary = path_.extension() == ".glb" || path_.extension() == ".GLB";
-  changed_ = bytes->starts_with("glTF") != named_binary;
+  changed_ = bytes->starts_with("glTF") != named_binary || !container.aligned;
   look_at_buffers();
   name_sources();
   use_diffuse();
