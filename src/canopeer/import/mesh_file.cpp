@@ -114,7 +114,10 @@ Expected<MeshFile> read_mesh_file(const fs::path& path, const MeshFileOptions& o
   auto mesh = read_guarded(path, options);
   if (!mesh) return tl::unexpected(mesh.error());
   if (mesh->parts.empty())
-    return fail(path.string() + ": holds no triangles: only points or lines, or nothing");
+    return fail(
+        path.string() +
+        ": holds no triangles that can be read: nothing, points, lines, or faces of corners that "
+        "are not there");
   MeshFile file;
   for (const std::string& notice : mesh->notices)
     file.notices.push_back(path.string() + ": " + notice);

@@ -57,7 +57,8 @@ TEST(FieldMeshes, FacesOfPointsAndLinesDoNotRefuseAMesh) {
       files.add("mixed.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1\nf 1 2\nf 1 2 3\n"));
   EXPECT_EQ(mixed.error, "");
   EXPECT_EQ(mixed.world.scene.triangle_count(), 1U);
-  for (const char* none : {"v 0 0 0\np 1\n", "v 0 0 0\nv 1 0 0\nl 1 2\n", "v 0 0 0\n"}) {
+  for (const char* none :
+       {"# a scan\nv 0 0 0\np 1\n", "v 0 0 0\nv 1 0 0\nl 1 2\n", "# a scan\nv 0 0 0\n"}) {
     const std::string error = test::import_all_as_fruit(files.add("none.obj", none)).error;
     EXPECT_NE(error.find("none.obj: holds no triangles"), std::string::npos) << error;
   }

@@ -218,7 +218,9 @@ FileMesh read_with_library(const fs::path& path, const RootFrame& frame, Materia
   const aiScene* const scene = read_triangles(importer, path, plain_file(path, dialect));
   if (scene == nullptr && is_without_triangles(importer.GetErrorString())) return {};
   if (scene == nullptr || scene->mRootNode == nullptr) {
-    throw std::runtime_error(importer.GetErrorString());
+    const std::string reason = importer.GetErrorString();
+    const bool other = reason.find("No suitable reader") != std::string::npos;
+    throw std::runtime_error(other ? "what is in it is not what its ending says" : reason);
   }
   FileMesh file;
   Gatherer gatherer(*scene, dialect, &file);

@@ -296,6 +296,8 @@ std::string plain_gltf(const fs::path& path) {
   } catch (const json::parse_error& error) {
     throw std::runtime_error("its JSON breaks off or is damaged at byte " +
                              std::to_string(error.byte));
+  } catch (const std::out_of_range&) {
+    throw std::runtime_error("glTF with a buffer that is not there");
   } catch (const json::exception&) {
     throw std::runtime_error("its JSON is no glTF: a member is missing or of the wrong kind");
   }
