@@ -9,6 +9,7 @@
 #include "canopeer/sensing/png.h"
 #include "commands.h"
 #include "exit_status.h"
+#include "fuel_caches.h"
 #include "world_builder.h"
 
 namespace canopeer::app {
@@ -24,17 +25,34 @@ WorldSource source_of(const ImportArguments& arguments) {
   }
   source.import.file = arguments.world;
   source.import.model_paths.assign(arguments.model_paths.begin(), arguments.model_paths.end());
+  source.import.fuel_caches = fuel_caches();
   source.import.patterns = arguments.patterns;
   source.import.honour_up_axis = !arguments.ignore_up_axis;
   source.import.fruits.min_hull_cm3 = arguments.min_fruit_cm3;
   return source;
 }
 
+/// How big the world is: a wrong unit shows at once.
+void say_extents(const Scene& scene) {
+  const auto say = [](const char* what, const Box& box) {
+    if (box.isEmpty()) return;
+    const Vec3 size = box.sizes();
+    std::fprintf(stderr,
+                 "extents of %s: %.4g x %.4g x %.4g m (x %.4g ... %.4g, y %.4g ... %.4g, "
+                 "z %.4g ... %.4g)\n",
+                 what, size.x(), size.y(), size.z(), box.min().x(), box.max().x(), box.min().y(),
+                 box.max().y(), box.min().z(), box.max().z());
+  };
+  say("all", scene.bounds());
+  say("the plants", scene.bounds(true));
+}
+
 }  // namespace
 
 /// A world or mesh as a scene file, its ground truth, what became of its names, and a picture.
 void scene_import(const ImportArguments& arguments) {
-  const ImportedScene world = build_world_or_stop(source_of(arguments), 1, false);
+  const ImportedScene world = build_world_or_stop(source_of(arguments), 1, DetectorOptions());
+  say_extents(world.scene);
   const fs::path out = arguments.out;
   std::error_code code;
   fs::create_directories(out, code);

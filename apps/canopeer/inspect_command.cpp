@@ -173,7 +173,9 @@ std::string json_of(const Scene& scene, const std::optional<OcclusionReport>& ri
 /// Counts, leaf area, and how hidden the fruits are.
 void scene_inspect(const SceneArguments& arguments) {
   const SceneSource source = load_scene_source(arguments.mission);
-  const ImportedScene world = build_world_or_stop(source.world, source.seed, false);
+  const ImportedScene world =
+      build_world_or_stop(source.world, source.seed,
+                          source.mission ? source.mission->mission.detector : DetectorOptions());
   const Scene& scene = world.scene;
   print_counts(scene);
   std::optional<OcclusionReport> ring;

@@ -1,6 +1,7 @@
 #include "mission_arguments.h"
 
 #include "exit_status.h"
+#include "fuel_caches.h"
 #include "shipped_data.h"
 
 namespace canopeer::app {
@@ -20,6 +21,7 @@ StageRequest stage_request(const MissionArguments& arguments, const Overrides& e
   request.table_dirs = {request.mission.parent_path() / "../compute_tables"};
   if (!own_data().empty()) request.table_dirs.push_back(own_data() / "compute_tables");
   request.table_dirs.push_back(shipped_data() / "compute_tables");
+  request.fuel_caches = fuel_caches();
   return request;
 }
 

@@ -90,7 +90,7 @@ void render_segments(const MissionFile& file, const Scene& scene, const fs::path
 /// The whole row from outside, and what the camera sees at home in each segment.
 void scene_render(const SceneArguments& arguments) {
   const SceneSource source = load_scene_source(arguments.mission);
-  const ImportedScene world = build_world_or_stop(source.world, source.seed, false);
+  const ImportedScene world = build_world_or_stop(source.world, source.seed);
   const fs::path out = out_or_stop(arguments.out);
   value_or_stop(write_png(out / "row.png", render_overview(world.scene, 1280, 720)), kFailed);
   if (source.mission) render_segments(*source.mission, world.scene, out);
@@ -101,7 +101,7 @@ void scene_render(const SceneArguments& arguments) {
 /// The scene as files: meshes, ground truth, a picture.
 void scene_generate(const SceneArguments& arguments) {
   const SceneSource source = load_scene_source(arguments.mission);
-  const ImportedScene world = build_world_or_stop(source.world, source.seed, false);
+  const ImportedScene world = build_world_or_stop(source.world, source.seed);
   const fs::path out = out_or_stop(arguments.out);
   value_or_stop(write_scene_glb(out / "scene.glb", world.scene), kFailed);
   write_truth(out, world.scene);

@@ -2,6 +2,7 @@
 
 #include "canopeer/config/world_section.h"
 #include "exit_status.h"
+#include "fuel_caches.h"
 #include "mission_arguments.h"
 
 namespace canopeer::app {
@@ -14,11 +15,13 @@ SceneSource load_scene_source(const MissionArguments& arguments) {
     }
     const SceneFile file = value_or_stop(load_scene_file(arguments.path), kBadInput);
     source.world = file.world;
+    source.world.import.fuel_caches = fuel_caches();
     source.seed = arguments.seed.value_or(file.seed);
     return source;
   }
   source.mission = load(arguments);
   source.world = source.mission->world;
+  source.world.import.fuel_caches = fuel_caches();
   source.seed = source.mission->mission.seed;
   return source;
 }

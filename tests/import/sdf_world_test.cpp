@@ -341,7 +341,7 @@ TEST(SdfWorld, ErrorsSayFileLineAndWhatWasExpected) {
   expect(files.path(), {"is a folder", "expected a .world or .sdf file"});
   expect(files.add("text.world", "hello"), {"text.world:1: is no sound XML"});
   expect(files.add("nothing.world", ""), {"nothing.world:1: is no sound XML: empty document"});
-  expect(files.add("page.world", "<html/>"), {"page.world:1: expected <sdf", "found <html>"});
+  expect(files.add("page.world", "<html/>"), {"page.world: is a web page"});
   expect(files.add("cut.world", "<sdf version=\"1.6\">\n<world name=\"w\">\n</sdf>"),
          {"cut.world:2: is no sound XML: mismatched element"});
   expect(files.add("empty.world", "<sdf version=\"1.6\"></sdf>"), {"empty.world"});

@@ -54,6 +54,8 @@ constexpr HeaderOrigin kOrigins[] = {
     {"sdf/", "libsdformat-dev"},
     {"ignition/math", "libignition-math-dev"},
     {"libqhull_r/", "libqhull-dev"},
+    {"stb/", "libstb-dev"},
+    {"webp/", "libwebp-dev"},
     {"tl/", "libexpected-dev"},
     {"gtest/", "libgtest-dev"},
     {"benchmark/", "libbenchmark-dev"},

@@ -124,6 +124,21 @@ float confidence_of(std::uint8_t saturation, const Blob& blob, const ColorWindow
 
 }  // namespace
 
+std::vector<bool> in_color_windows(std::span<const Rgb> colors,
+                                   const ColorDetectorOptions& options) {
+  if (colors.empty()) return {};
+  ColorImage row(static_cast<int>(colors.size()), 1);
+  std::copy(colors.begin(), colors.end(), row.pixels().begin());
+  ColorDetectorOptions counting = options;
+  std::erase_if(counting.windows,
+                [](const ColorWindow& w) { return w.label == PixelLabel::green_fruit; });
+  const cv::Mat in = in_windows(hsv_of(row), counting,
+                                [](const ColorWindow& window) { return window.min_saturation; });
+  std::vector<bool> result;
+  for (int i = 0; i < in.cols; ++i) result.push_back(in.at<std::uint8_t>(0, i) != 0);
+  return result;
+}
+
 ColorDetector::ColorDetector(const ColorDetectorOptions& options) : options_(options) {
   CANOPEER_CHECK(options.validate().has_value(), "validate options where they come from");
 }

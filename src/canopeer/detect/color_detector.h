@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,10 @@ struct ColorDetectorOptions {
 
   [[nodiscard]] Expected<void> validate() const;
 };
+
+/// Whether each colour lies in a window of fruits that count, as one pixel by itself.
+[[nodiscard]] std::vector<bool> in_color_windows(std::span<const Rgb> colors,
+                                                 const ColorDetectorOptions& options);
 
 /// Fruit by colour (hue window, saturation and value floor; Marangoz et al., CASE 2022, in
 /// simulation), with morphology and a size floor. Where windows overlap the nearer middle hue

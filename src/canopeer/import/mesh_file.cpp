@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <fstream>
 
 #include "canopeer/base/atomic_file.h"
 #include "canopeer/import/meshes/collada_asset.h"
+#include "canopeer/import/meshes/file_kind.h"
 #include "canopeer/import/meshes/file_mesh.h"
 #include "canopeer/import/meshes/guarded_call.h"
 #include "canopeer/import/meshes/material_painter.h"
@@ -74,6 +76,29 @@ Expected<FileMesh> read_guarded(const fs::path& path, const MeshFileOptions& opt
   return decode_file_mesh(*bytes);
 }
 
+/// A file's first bytes, by which its kind is told.
+std::string head_of(const fs::path& path) {
+  std::string head(kFileHeadBytes, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
+  return head;
+}
+
+/// What the file's name promises is what is in it.
+Expected<void> check_kind(const fs::path& path) {
+  const std::string head = head_of(path);
+  if (const auto foreign = foreign_file(head)) return fail(path.string() + ": " + *foreign);
+  if (!is_mesh_file(path)) {
+    return fail(path.string() + ": expected a mesh, .dae, .obj, .stl, .gltf, .glb or .ply");
+  }
+  const std::string_view held = mesh_ending_by_content(head);
+  const std::string ending = ending_of(path);
+  if (held.empty() || held == ending || (held == ".glb" && ending == ".gltf")) return {};
+  return fail(path.string() + ": holds what belongs into a " + std::string(held) +
+              " file; give it that ending");
+}
+
 }  // namespace
 
 bool is_mesh_file(const fs::path& path) {
@@ -85,12 +110,14 @@ Expected<MeshFile> read_mesh_file(const fs::path& path, const MeshFileOptions& o
                                   TextureStore& textures) {
   std::error_code code;
   if (!fs::is_regular_file(path, code)) return fail(path.string() + ": no such mesh file");
-  if (!is_mesh_file(path)) {
-    return fail(path.string() + ": expected a mesh, .dae, .obj, .stl, .gltf, .glb or .ply");
-  }
+  if (auto ok = check_kind(path); !ok) return tl::unexpected(ok.error());
   auto mesh = read_guarded(path, options);
   if (!mesh) return tl::unexpected(mesh.error());
-  if (mesh->parts.empty()) return fail(path.string() + ": holds no triangles");
+  if (mesh->parts.empty())
+    return fail(
+        path.string() +
+        ": holds no triangles that can be read: nothing, points, lines, or faces of corners that "
+        "are not there");
   MeshFile file;
   for (const std::string& notice : mesh->notices)
     file.notices.push_back(path.string() + ": " + notice);

@@ -67,6 +67,11 @@ TriangleMesh cylinder_mesh(double radius_m, double length_m) {
   return with_flat_faces(lathe({{0.0, -h}, {radius_m, -h}, {radius_m, h}, {0.0, h}}));
 }
 
+TriangleMesh cone_mesh(double radius_m, double length_m) {
+  const double h = 0.5 * length_m;
+  return with_flat_faces(lathe({{0.0, -h}, {radius_m, -h}, {0.0, h}}));
+}
+
 TriangleMesh capsule_mesh(double radius_m, double length_m) {
   std::vector<Ring> rings;
   constexpr int kSteps = kSides / 4;

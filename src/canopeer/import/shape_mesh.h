@@ -10,6 +10,8 @@ namespace canopeer {
 [[nodiscard]] TriangleMesh box_mesh(const Vec3& size_m);
 [[nodiscard]] TriangleMesh ellipsoid_mesh(const Vec3& radii_m);
 [[nodiscard]] TriangleMesh cylinder_mesh(double radius_m, double length_m);
+/// Its tip is at z = `length_m` / 2.
+[[nodiscard]] TriangleMesh cone_mesh(double radius_m, double length_m);
 /// `length_m`: of the cylinder between the two half spheres.
 [[nodiscard]] TriangleMesh capsule_mesh(double radius_m, double length_m);
 /// A rectangle square to `normal`.

@@ -18,6 +18,8 @@ namespace fs = std::filesystem;
 constexpr std::size_t kNamesShown = 12;
 constexpr double kFarthest_m = 1e5;      // beyond it floats have no centimetres left
 constexpr double kLongestFruit_m = 0.6;  // no fruit in a glasshouse is
+constexpr double kSmallestPlant_m = 0.01;
+constexpr double kLargestPlant_m = 20.0;
 
 /// Reads each mesh file once; its notices are passed on once.
 class MeshStore {
@@ -123,7 +125,7 @@ Expected<std::vector<MeshPiece>> sdf_pieces(const WorldImportOptions& options, s
       return fail("model path " + folder.string() + ": no such folder");
     }
   }
-  auto world = read_sdf_world(options.file, ModelPaths(options.model_paths));
+  auto world = read_sdf_world(options.file, ModelPaths(options.model_paths, options.fuel_caches));
   if (!world) return tl::unexpected(world.error());
   *name = world->name;
   *notices = world->notices;
@@ -210,6 +212,27 @@ void note_odd_sizes(ImportedScene* result) {
                             "more than fruits");
 }
 
+/// A lone mesh whose format names no unit and whose size is no plant's.
+void note_odd_unit(const fs::path& file, const std::vector<MeshPiece>& pieces,
+                   std::vector<std::string>* notices) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending != ".obj" && ending != ".stl" && ending != ".ply") return;
+  Box box;
+  for (const MeshPiece& piece : pieces) box.extend(piece.mesh.bounds());
+  const double size = box.isEmpty() ? 0.0 : box.sizes().maxCoeff();
+  if (size <= 0.0 || (size >= kSmallestPlant_m && size <= kLargestPlant_m)) return;
+  std::array<char, 320> text{};
+  std::snprintf(
+      text.data(), text.size(),
+      ": is %.4g m in size, since %s names no unit and metres are taken; in millimetres it "
+      "would be %.4g m, in centimetres %.4g m, in inches %.4g m: say so with unit_m in a "
+      "scene file or <scale> in an SDF world",
+      size, ending.c_str(), size * 1e-3, size * 1e-2, size * 0.0254);
+  notices->push_back(file.string() + text.data());
+}
+
 void note_what_is_missing(const NamePatternOptions& patterns, ImportedScene* result) {
   if (patterns.fruit.empty()) {
     result->notices.push_back("no pattern for fruits was given, so there are none; names are: " +
@@ -236,6 +259,7 @@ Expected<ImportedScene> import_world(const WorldImportOptions& options,
   if (!pieces) return tl::unexpected(pieces.error());
   if (pieces->empty()) return fail(options.file.string() + ": shows nothing: expected a visual");
   if (auto ok = check_size(*pieces); !ok) return fail_in(options.file.string(), ok.error());
+  note_odd_unit(options.file, *pieces, &notices);
   auto classified = classify(std::move(*pieces), *patterns);
   if (classified.empty()) {
     return fail(options.file.string() + ": nothing is left: the pattern for what to skip, '" +

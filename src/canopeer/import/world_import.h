@@ -15,6 +15,8 @@ namespace canopeer {
 struct WorldImportOptions {
   std::filesystem::path file;  ///< .world or .sdf, or a mesh file; empty: nothing to import
   std::vector<std::filesystem::path> model_paths;  ///< for model:// and package://
+  /// Where programs of Gazebo keep models they fetched, for https:// ("~/.gz/fuel").
+  std::vector<std::filesystem::path> fuel_caches;
   NamePatternOptions patterns;
   FruitComponentOptions fruits;
   /// COLLADA's <up_axis>: true follows it, false takes coordinates as they are, as Gazebo does.

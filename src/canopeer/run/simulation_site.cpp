@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "canopeer/run/fruit_colors.h"
+
 namespace canopeer {
 namespace {
 
@@ -47,7 +49,8 @@ std::string import_line(const Scene& scene, double seconds) {
 }  // namespace
 
 Expected<ImportedScene> build_world_saying(const WorldSource& source, std::uint64_t seed,
-                                           const SiteCallbacks& tell) {
+                                           const SiteCallbacks& tell,
+                                           const DetectorOptions* detector) {
   const auto begin = std::chrono::steady_clock::now();
   auto built = build_world(source, seed, tell.on_import);
   if (!built) return built;
@@ -55,14 +58,16 @@ Expected<ImportedScene> build_world_saying(const WorldSource& source, std::uint6
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     tell.on_news(import_line(built->scene, took.count()));
   }
-  for (const std::string& text : built->notices) {
-    if (tell.on_notice) tell.on_notice(text);
-  }
+  if (!tell.on_notice) return built;
+  for (const std::string& text : built->notices) tell.on_notice(text);
+  if (detector == nullptr || detector->kind != DetectorOptions().kind) return built;
+  if (const auto text = fruit_color_notice(built->scene, detector->colour)) tell.on_notice(*text);
   return built;
 }
 
 Expected<std::unique_ptr<Site>> make_simulation_site(const SiteRequest& request) {
-  auto built = build_world_saying(request.file.world, request.file.mission.seed, request.callbacks);
+  auto built = build_world_saying(request.file.world, request.file.mission.seed, request.callbacks,
+                                  &request.file.mission.detector);
   if (!built) return tl::unexpected(built.error());
   return std::make_unique<SimulationSite>(std::move(built->scene), request);
 }

@@ -92,6 +92,7 @@ Expected<std::unique_ptr<Stage>> Stage::make(const StageRequest& request,
 Expected<std::unique_ptr<Stage>> Stage::make(MissionFile file, const StageRequest& request,
                                              const RunRegistries& registries) {
   if (request.realtime) put_on_the_wall_clock(file, request.threads);
+  if (!request.fuel_caches.empty()) file.world.import.fuel_caches = request.fuel_caches;
   auto robot = load_robot(file.robot, file.T_frame_camera);
   if (!robot) return tl::unexpected(robot.error());
   auto ik = ArmIk::make(*robot);

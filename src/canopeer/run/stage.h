@@ -14,8 +14,9 @@ namespace canopeer {
 /// hand (MissionFile), the first three are not looked at.
 struct StageRequest {
   std::filesystem::path mission;
-  Overrides overrides;                            ///< settings in place of the file's
-  std::vector<std::filesystem::path> table_dirs;  ///< where compute tables are found by name
+  Overrides overrides;                             ///< settings in place of the file's
+  std::vector<std::filesystem::path> table_dirs;   ///< where compute tables are found by name
+  std::vector<std::filesystem::path> fuel_caches;  ///< see WorldImportOptions; empty: the file's
   std::string site = "simulation";
   bool realtime = false;  ///< on the wall clock, as every real robot is
   int threads = 0;        ///< at most; 0: all cores

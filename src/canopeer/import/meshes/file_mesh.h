@@ -31,7 +31,7 @@ struct FileMesh {
   };
   std::vector<Part> parts;
   std::vector<FileMaterial> materials;
-  std::map<std::string, std::string> pictures;  ///< inside the file: reference → PNG or JPEG
+  std::map<std::string, std::string> pictures;  ///< inside the file: reference → a picture file
   std::vector<std::string> notices;
 };
 

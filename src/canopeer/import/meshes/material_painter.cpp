@@ -4,28 +4,35 @@
 #include <cctype>
 #include <optional>
 
+#include "canopeer/import/meshes/percent_encoding.h"
+
 namespace canopeer {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// "file:///a%20b\c.png" → "/a b/c.png".
+/// "file:///a%20b\c.png " → "/a b/c.png".
 std::string plain_path(std::string reference) {
+  constexpr const char* kBlanks = " \t\r\n";  // some formats' readers leave those at the end
+  reference.erase(reference.find_last_not_of(kBlanks) + 1);
   if (reference.starts_with("file://")) reference.erase(0, 7);
   std::replace(reference.begin(), reference.end(), '\\', '/');
-  std::string plain;
-  for (std::size_t i = 0; i < reference.size(); ++i) {
-    const auto hex = [&](std::size_t k) {
-      return k < reference.size() && std::isxdigit(static_cast<unsigned char>(reference[k])) != 0;
-    };
-    if (reference[i] == '%' && hex(i + 1) && hex(i + 2)) {
-      plain += static_cast<char>(std::stoi(reference.substr(i + 1, 2), nullptr, 16));
-      i += 2;
-    } else {
-      plain += reference[i];
-    }
+  return percent_decoded(reference);
+}
+
+/// The file in `folder` that `name` means but for capitals, which mean nothing on Windows.
+std::optional<fs::path> find_but_for_capitals(const fs::path& folder, const std::string& name) {
+  const auto same = [](unsigned char a, unsigned char b) {
+    return std::tolower(a) == std::tolower(b);
+  };
+  std::optional<fs::path> found;
+  std::error_code code;
+  for (const auto& entry : fs::directory_iterator(folder, code)) {
+    const std::string other = entry.path().filename().string();
+    if (!std::equal(name.begin(), name.end(), other.begin(), other.end(), same)) continue;
+    if (!found || entry.path() < *found) found = entry.path();
   }
-  return plain;
+  return found;
 }
 
 /// Where model folders keep their textures, seen from the mesh.
@@ -38,6 +45,10 @@ std::optional<fs::path> find_texture(const fs::path& mesh_file, const std::strin
         dir / "textures" / given.filename()}) {
     std::error_code code;
     if (fs::is_regular_file(candidate, code)) return candidate;
+  }
+  for (const char* folder : {".", "../materials/textures", "../textures", "textures"}) {
+    const auto found = find_but_for_capitals(dir / folder, given.filename().string());
+    if (found) return found->lexically_normal();
   }
   return std::nullopt;
 }

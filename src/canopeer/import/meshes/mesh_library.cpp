@@ -9,7 +9,12 @@
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <fstream>
 #include <stdexcept>
+
+#include "canopeer/base/atomic_file.h"
+#include "canopeer/import/meshes/plain_gltf.h"
+#include "canopeer/import/meshes/plain_ply.h"
 
 namespace canopeer {
 namespace {
@@ -47,12 +52,52 @@ void repair_faces(aiMesh& mesh) {
   mesh.mNumFaces = kept;
 }
 
+/// A file in other words where the library would take it wrong; empty: as it is.
+struct PlainFile {
+  std::string bytes;
+  const char* format = "";
+};
+
+PlainFile plain_file(const fs::path& path, MaterialDialect dialect) {
+  if (dialect == MaterialDialect::gltf) return {plain_gltf(path), "glb"};
+  std::string first(3, ' ');
+  std::ifstream(path, std::ios::binary).read(first.data(), 3);
+  if (first != "ply") return {};
+  const auto bytes = read_file(path);
+  if (!bytes) throw std::runtime_error(bytes.error().message);
+  return {plain_ply(*bytes), "ply"};
+}
+
+const aiScene* parse(Assimp::Importer& importer, const fs::path& path, const PlainFile& plain,
+                     unsigned steps) {
+  if (plain.bytes.empty()) return importer.ReadFile(path.string(), steps);
+  return importer.ReadFileFromMemory(plain.bytes.data(), plain.bytes.size(), steps, plain.format);
+}
+
 /// The file's scene, all of it triangles; nullptr when the library cannot read it.
-const aiScene* read_triangles(Assimp::Importer& importer, const fs::path& path) {
-  if (importer.ReadFile(path.string(), aiProcess_ValidateDataStructure) == nullptr) return nullptr;
+const aiScene* read_triangles(Assimp::Importer& importer, const fs::path& path,
+                              const PlainFile& plain) {
+  constexpr unsigned kCheck = aiProcess_ValidateDataStructure;
+  unsigned later = aiProcess_Triangulate | aiProcess_SortByPType;
+  if (parse(importer, path, plain, kCheck) == nullptr) {
+    // Its own reader of OBJ miscounts kinds of faces, which is put right below and checked then.
+    const std::string reason = importer.GetErrorString();
+    if (reason.find("does not report the") == std::string::npos) return nullptr;
+    if (parse(importer, path, plain, 0) == nullptr) return nullptr;
+    later |= kCheck;
+  }
   const aiScene* const scene = importer.GetScene();
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) repair_faces(*scene->mMeshes[i]);
-  return importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
+  return importer.ApplyPostProcessing(later);
+}
+
+/// Whether the library refuses a file because there are only points and lines in it, or nothing.
+bool is_without_triangles(const std::string& reason) {
+  constexpr std::array kReasons = {"No meshes remaining",         "contains no faces",
+                                   "contains no vertices",        "mNumMeshes is 0",
+                                   "There are no facets defined", "has no faces"};
+  return std::any_of(kReasons.begin(), kReasons.end(),
+                     [&](const char* words) { return reason.find(words) != std::string::npos; });
 }
 
 /// One assimp mesh in its own frame. Faces that are no triangles or point outside are left out.
@@ -170,9 +215,12 @@ FileMesh read_with_library(const fs::path& path, const RootFrame& frame, Materia
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  const aiScene* const scene = read_triangles(importer, path);
+  const aiScene* const scene = read_triangles(importer, path, plain_file(path, dialect));
+  if (scene == nullptr && is_without_triangles(importer.GetErrorString())) return {};
   if (scene == nullptr || scene->mRootNode == nullptr) {
-    throw std::runtime_error(importer.GetErrorString());
+    const std::string reason = importer.GetErrorString();
+    const bool other = reason.find("No suitable reader") != std::string::npos;
+    throw std::runtime_error(other ? "what is in it is not what its ending says" : reason);
   }
   FileMesh file;
   Gatherer gatherer(*scene, dialect, &file);

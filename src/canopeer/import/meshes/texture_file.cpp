@@ -9,11 +9,10 @@
 #include <vector>
 
 #include "canopeer/base/atomic_file.h"
+#include "canopeer/import/meshes/picture_library.h"
 
 namespace canopeer {
 namespace {
-
-constexpr std::size_t kMaxPixels = 128U << 20;  // a broken header must not eat all memory
 
 Expected<Texture> decode_png(std::string_view bytes, const std::string& name) {
   png_image png{};
@@ -23,7 +22,7 @@ Expected<Texture> decode_png(std::string_view bytes, const std::string& name) {
   }
   const bool alpha = (png.format & PNG_FORMAT_FLAG_ALPHA) != 0;
   png.format = PNG_FORMAT_RGBA;
-  if (static_cast<std::size_t>(png.width) * png.height > kMaxPixels) {
+  if (static_cast<std::size_t>(png.width) * png.height > kMostPicturePixels) {
     png_image_free(&png);
     return fail(name + ": the picture is too big");
   }
@@ -73,7 +72,7 @@ bool decode_jpeg_into(std::string_view bytes, JpegErrors* errors, std::vector<st
   jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
   jpeg_read_header(&jpeg, TRUE);
   jpeg.out_color_space = JCS_RGB;
-  if (static_cast<std::size_t>(jpeg.image_width) * jpeg.image_height > kMaxPixels) {
+  if (static_cast<std::size_t>(jpeg.image_width) * jpeg.image_height > kMostPicturePixels) {
     std::strcpy(errors->message, "the picture is too big");
     jpeg_destroy_decompress(&jpeg);
     return false;
@@ -109,12 +108,36 @@ Expected<Texture> decode_jpeg(std::string_view bytes, const std::string& name) {
   return texture;
 }
 
+Expected<Texture> decode_other(PictureKind kind, std::string_view bytes, const std::string& name) {
+  const auto picture = read_picture(kind, bytes);
+  if (!picture) return fail(name + ": " + picture.error().message);
+  Texture texture;
+  texture.name = name;
+  texture.color = ColorImage(picture->width, picture->height);
+  if (picture->alpha) {
+    texture.opacity = Image<std::uint8_t>(picture->width, picture->height);
+  }
+  for (std::size_t i = 0; i < texture.color.pixels().size(); ++i) {
+    const std::uint8_t* const pixel = picture->rgba.data() + 4 * i;
+    texture.color.pixels()[i] = {pixel[0], pixel[1], pixel[2]};
+    if (picture->alpha) texture.opacity.pixels()[i] = pixel[3];
+  }
+  return texture;
+}
+
 }  // namespace
 
 Expected<Texture> decode_texture(std::string_view bytes, const std::string& name) {
-  if (bytes.starts_with("\x89PNG")) return decode_png(bytes, name);
-  if (bytes.starts_with("\xff\xd8\xff")) return decode_jpeg(bytes, name);
-  return fail(name + ": expected a PNG or JPEG picture");
+  switch (const PictureKind kind = picture_kind(bytes)) {
+    case PictureKind::png:
+      return decode_png(bytes, name);
+    case PictureKind::jpeg:
+      return decode_jpeg(bytes, name);
+    case PictureKind::unknown:
+      return fail(name + ": " + picture_refusal(bytes));
+    default:
+      return decode_other(kind, bytes, name);
+  }
 }
 
 Expected<std::string> encode_texture(const Texture& texture) {

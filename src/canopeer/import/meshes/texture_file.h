@@ -11,7 +11,8 @@
 
 namespace canopeer {
 
-/// A PNG or JPEG file in memory; alpha becomes opacity. `name` stands for the file in messages.
+/// A picture file in memory: PNG, JPEG, or what read_picture() reads, told apart by its bytes.
+/// Alpha becomes opacity. `name` stands for the file in messages.
 [[nodiscard]] Expected<Texture> decode_texture(std::string_view bytes, const std::string& name);
 
 /// A PNG file in memory, with alpha when the texture has an opacity of the colour's size.

@@ -6,6 +6,7 @@
 
 #include "canopeer/base/atomic_file.h"
 #include "canopeer/base/text_lines.h"
+#include "canopeer/import/meshes/file_kind.h"
 
 namespace canopeer {
 namespace {
@@ -69,6 +70,8 @@ Expected<std::unique_ptr<const SdfFile>> SdfFile::parse(std::string_view text, f
 Expected<std::unique_ptr<const SdfFile>> SdfFile::read(const fs::path& path) {
   const auto text = read_file(path);
   if (!text) return tl::unexpected(text.error());
+  const auto foreign = foreign_file(std::string_view(*text).substr(0, kFileHeadBytes));
+  if (foreign && !text->empty()) return fail(path.string() + ": " + *foreign);
   return parse(*text, path);
 }
 

@@ -5,34 +5,20 @@
 #include <algorithm>
 
 #include "canopeer/base/atomic_file.h"
+#include "canopeer/import/sdf/fuel_address.h"
 
 namespace canopeer {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool on_network(const std::string& uri) {
-  return uri.starts_with("http://") || uri.starts_with("https://");
-}
-
-/// A model on the network is one that somebody has fetched.
-std::string local_uri(const SdfElement& include) {
-  const std::string uri = include.child("uri").text();
-  return on_network(uri) ? "model://" + SdfIncludes::model_name(uri) : uri;
-}
-
 tl::unexpected<Error> not_found(const SdfElement& include, const std::string& uri,
                                 const std::string& searched) {
-  std::string text = include.where() + ": <include><uri>" + uri + ": ";
-  if (on_network(uri)) {
-    text += "the network is not read; put the model's folder, '" + SdfIncludes::model_name(uri) +
-            "', under a --model-path";
-  } else {
-    text +=
-        "no such model; expected a folder with model.config under a --model-path, or beside "
-        "the file";
+  std::string text = include.where() + ": <include><uri>" + uri + ": no such model; ";
+  if (!parse_fuel_address(uri)) {
+    text += "expected a folder with model.config under a --model-path, or beside the file; ";
   }
-  return fail(text + " (" + searched + ")");
+  return fail(text + searched);
 }
 
 /// What a line of model.config says: which file, and of which version.
@@ -61,6 +47,9 @@ Expected<fs::path> sdf_in_model_folder(const fs::path& folder) {
   std::error_code code;
   fs::path config = folder / "model.config";
   if (!fs::exists(config, code)) config = folder / "manifest.xml";  // its old name
+  if (!fs::exists(config, code) && fs::exists(folder / "model.sdf", code)) {
+    return (folder / "model.sdf").lexically_normal();
+  }
   if (!fs::exists(config, code)) {
     return fail(folder.string() + ": is no model: it has no model.config");
   }
@@ -84,22 +73,10 @@ Expected<fs::path> sdf_in_model_folder(const fs::path& folder) {
 }
 
 std::string SdfIncludes::model_name(const std::string& uri) {
+  if (const auto address = parse_fuel_address(uri)) return address->folder_name();
   std::string path = uri;
-  // On Fuel an address may end with the model's version: …/models/Pepper/2.
-  if (const auto at = path.find("/models/"); on_network(uri) && at != std::string::npos) {
-    path = path.substr(at + 8);
-    path.resize(std::min(path.find('/'), path.size()));
-  }
   while (path.ends_with('/')) path.pop_back();
-  std::string name = path.substr(path.rfind('/') + 1);
-  if (!on_network(uri)) return name;
-  for (std::size_t at = name.find("%20"); at != std::string::npos; at = name.find("%20")) {
-    name.replace(at, 3, " ");
-  }
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) {
-    return c == ' ' ? '_' : static_cast<char>(std::tolower(c));
-  });
-  return name;
+  return path.substr(path.rfind('/') + 1);
 }
 
 Expected<const SdfFile*> SdfIncludes::read(const fs::path& path) {
@@ -113,7 +90,7 @@ Expected<const SdfFile*> SdfIncludes::read(const fs::path& path) {
 }
 
 std::optional<fs::path> SdfIncludes::path_of(const SdfElement& include) const {
-  return paths_.find(local_uri(include), include.file().path().parent_path());
+  return paths_.find(include.child("uri").text(), include.file().path().parent_path());
 }
 
 bool SdfIncludes::exists(const SdfElement& include) const { return path_of(include).has_value(); }
@@ -131,8 +108,7 @@ Expected<const SdfFile*> SdfIncludes::find(const SdfElement& include) {
 Expected<const SdfFile*> SdfIncludes::look_up(const SdfElement& include, const std::string& uri) {
   const auto path = path_of(include);
   if (!path) {
-    return not_found(include, uri,
-                     paths_.searched(local_uri(include), include.file().path().parent_path()));
+    return not_found(include, uri, paths_.searched(uri, include.file().path().parent_path()));
   }
   std::error_code code;
   auto file =

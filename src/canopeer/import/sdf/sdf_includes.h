@@ -37,7 +37,7 @@ class SdfIncludes {
 };
 
 /// The SDF file in a model's folder: of those in model.config the one of the highest version that
-/// this reader knows, else the first. Error: there is none.
+/// this reader knows, else the first; without a model.config, model.sdf. Error: there is none.
 [[nodiscard]] Expected<std::filesystem::path> sdf_in_model_folder(
     const std::filesystem::path& folder);
 

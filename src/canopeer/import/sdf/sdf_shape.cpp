@@ -73,14 +73,17 @@ Expected<void> read_material(const SdfElement& material, const ModelPaths& paths
   return {};
 }
 
-Expected<void> read_mesh(const SdfElement& mesh, const ModelPaths& paths, SdfVisual* visual) {
+/// False: it is not there.
+Expected<bool> read_mesh(const SdfElement& mesh, const ModelPaths& paths, SdfVisual* visual,
+                         MissingFiles* missing) {
   const std::string uri = mesh.child("uri").text();
   const fs::path folder = mesh.file().path().parent_path();
   const auto path = paths.find(uri, folder);
   if (!path) {
-    return fail(visual->where + ": <mesh><uri>" + uri + ": no such file; visual '" +
-                visual->names.visual + "' of model '" + visual->names.model + "' refers to it (" +
-                paths.searched(uri, folder) + ")");
+    missing->add(uri, Error{visual->where + ": <mesh><uri>" + uri + ": no such file; visual '" +
+                            visual->names.visual + "' of model '" + visual->names.model +
+                            "' refers to it (" + paths.searched(uri, folder) + ")"});
+    return false;
   }
   const auto scale = sdf_vector(mesh, "scale", Vec3::Ones());
   if (!scale) return tl::unexpected(scale.error());
@@ -88,7 +91,7 @@ Expected<void> read_mesh(const SdfElement& mesh, const ModelPaths& paths, SdfVis
   visual->submesh = mesh.child("submesh").child("name").text();
   visual->center_submesh = sdf_truth(mesh.child("submesh").child("center").text());
   visual->T_world_visual.scale(*scale);
-  return {};
+  return true;
 }
 
 /// Nothing: it is no outline, or not one alone (of several, the inner ones are holes).
@@ -137,6 +140,7 @@ Expected<std::optional<TriangleMesh>> primitive(const SdfElement& shape,
   const std::string_view kind = shape.tag();
   if (kind == "cylinder") return round(shape, cylinder_mesh);
   if (kind == "capsule") return round(shape, capsule_mesh);
+  if (kind == "cone") return round(shape, cone_mesh);
   if (kind == "plane") return plane(shape);
   if (kind == "polyline") return polyline(shape, geometry);
   if (kind == "sphere") {
@@ -154,7 +158,7 @@ Expected<std::optional<TriangleMesh>> primitive(const SdfElement& shape,
 /// The first child that SDF knows as a shape, else the first.
 SdfElement shape_in(const SdfElement& geometry) {
   for (const char* kind :
-       {"mesh", "box", "sphere", "ellipsoid", "cylinder", "capsule", "plane", "polyline"}) {
+       {"mesh", "box", "sphere", "ellipsoid", "cylinder", "capsule", "cone", "plane", "polyline"}) {
     if (const SdfElement shape = geometry.child(kind)) return shape;
   }
   const auto children = geometry.children();
@@ -164,7 +168,7 @@ SdfElement shape_in(const SdfElement& geometry) {
 }  // namespace
 
 Expected<bool> read_sdf_shape(const SdfElement& from, const ModelPaths& paths, SdfVisual* visual,
-                              std::vector<std::string>* notices) {
+                              std::vector<std::string>* notices, MissingFiles* missing) {
   visual->where = from.where();
   const SdfElement geometry = from.child("geometry");
   const SdfElement shape = shape_in(geometry);
@@ -175,9 +179,7 @@ Expected<bool> read_sdf_shape(const SdfElement& from, const ModelPaths& paths, S
   auto painted = read_material(from.child("material"), paths, visual, notices);
   if (!painted) return tl::unexpected(painted.error());
   if (shape.tag() == "mesh") {
-    auto ok = read_mesh(shape, paths, visual);
-    if (!ok) return tl::unexpected(ok.error());
-    return true;
+    return read_mesh(shape, paths, visual, missing);
   }
   auto mesh = primitive(shape, geometry);
   if (!mesh) return tl::unexpected(mesh.error());
@@ -188,7 +190,7 @@ Expected<bool> read_sdf_shape(const SdfElement& from, const ModelPaths& paths, S
   notices->push_back(visual->where + ": <" + std::string(shape.tag()) + ">: visual '" +
                      visual->names.visual + "' of model '" + visual->names.model +
                      "' is left out: expected a mesh, box, sphere, ellipsoid, cylinder, capsule, "
-                     "plane or one polyline");
+                     "cone, plane or one polyline");
   return false;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "canopeer/import/sdf/missing_files.h"
 #include "canopeer/import/sdf/sdf_numbers.h"
 #include "canopeer/import/sdf/sdf_population.h"
 
@@ -68,6 +69,7 @@ class TreeReader {
   std::size_t depth_ = 0;
   std::size_t models_ = 0;
   std::map<std::string, std::vector<std::string>> left_out_;  ///< names by tag
+  MissingFiles missing_;                                      ///< models
 };
 
 Expected<void> TreeReader::add_link(const SdfElement& link, SdfScope* scope) {
@@ -113,10 +115,12 @@ Expected<void> TreeReader::add_model(const ModelSource& source, SdfScope* scope)
 /// Nothing: no model, but something that needs none.
 Expected<std::optional<ModelSource>> TreeReader::included(const SdfElement& include) {
   const auto file = includes_.find(include);
-  if (!file && !includes_.exists(include)) {
+  if (!file && !include.child("uri").text().empty() && !includes_.exists(include)) {
     if (everybody_has(include, "sun")) return std::nullopt;
     tree_.lacks_ground = tree_.lacks_ground || everybody_has(include, "ground_plane");
     if (everybody_has(include, "ground_plane")) return std::nullopt;
+    missing_.add(include.child("uri").text(), file.error());
+    return std::nullopt;
   }
   if (!file) return tl::unexpected(file.error());
   if ((*file)->is_urdf()) {
@@ -173,6 +177,7 @@ Expected<void> TreeReader::add_population(const SdfElement& population, SdfScope
     if (!found) return tl::unexpected(found.error());
     source = std::move(*found);
   }
+  if (!source && !missing_.empty()) return {};
   if (!source) return fail(population.where() + ": <population>: expected a <model>");
   // No name of an element can have a line's end in it.
   const std::string frame = "\npopulation " + std::to_string(scope->frames.size());
@@ -235,6 +240,7 @@ Expected<SdfTree> TreeReader::read(const SdfElement& world) {
   tree_.world = std::make_unique<SdfScope>();
   chain_.push_back(world.file().path());
   if (auto ok = fill(world, tree_.world.get()); !ok) return tl::unexpected(ok.error());
+  if (auto ok = missing_.check("models"); !ok) return tl::unexpected(ok.error());
   note_what_is_left_out();
   return std::move(tree_);
 }

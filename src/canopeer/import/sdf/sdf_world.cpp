@@ -43,6 +43,7 @@ class WorldReader {
   SdfFrames frames_;
   SdfState state_;
   SdfWorld world_;
+  MissingFiles missing_;  ///< meshes
 };
 
 void WorldReader::add_ground() {
@@ -79,7 +80,7 @@ Expected<void> WorldReader::add_link(const SdfElement& link, const SdfScope& sco
     visual.names.visual = from.name();
     visual.names.link = name.substr(last + 2);
     visual.names.model = name.substr(0, last);
-    const auto shown = read_sdf_shape(from, paths_, &visual, &world_.notices);
+    const auto shown = read_sdf_shape(from, paths_, &visual, &world_.notices, &missing_);
     if (!shown) return tl::unexpected(shown.error());
     if (*shown) world_.visuals.push_back(std::move(visual));
   }
@@ -171,6 +172,7 @@ Expected<SdfWorld> WorldReader::read() {
   for (const SdfElement& insertions : state_.insertions) {
     if (auto ok = add_tree(insertions); !ok) return tl::unexpected(ok.error());
   }
+  if (auto ok = missing_.check("meshes"); !ok) return tl::unexpected(ok.error());
   return std::move(world_);
 }
 
