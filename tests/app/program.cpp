@@ -32,7 +32,8 @@ ProgramResult run(const std::vector<std::string>& arguments,
   const TemporaryDirectory directory;
   const auto out = directory / "out";
   const auto err = directory / "err";
-  std::vector<std::string> words = {CANOPEER_PROGRAM};
+  std::vector<std::string> words = {CANOPEER_EMULATOR, CANOPEER_PROGRAM};
+  if (words.front().empty()) words.erase(words.begin());
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (auto& word : words) argv.push_back(word.data());

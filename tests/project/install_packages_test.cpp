@@ -19,7 +19,8 @@ class Machine {
   /// Lists of packages, each name between blanks.
   Machine(const std::string& packages_file, std::string installed, std::string in_release)
       : installed_(std::move(installed)), in_release_(std::move(in_release)) {
-    std::string name = (fs::temp_directory_path() / "canopeer_packages_").string() + std::string(6, 'X');
+    std::string name =
+        (fs::temp_directory_path() / "canopeer_packages_").string() + std::string(6, 'X');
     root_ = mkdtemp(name.data());
     fs::create_directories(root_ / "scripts");
     fs::create_directories(root_ / "tools");
@@ -44,13 +45,13 @@ class Machine {
     fs::remove_all(root_, code);
   }
 
-  /// What the script asked apt for, and its exit status.
-  std::string run(bool apt_fails = false) {
+  /// What the script asked apt for, and its exit status. `arch`: of the machine to compile for.
+  std::string run(bool apt_fails = false, const std::string& arch = "") {
     fs::remove(root_ / "asked");
-    const std::string command = "cd '" + root_.string() +
-                                "' && PATH=\"$PWD/tools:$PATH\" FAILS=" + (apt_fails ? "1" : "") +
-                                " INSTALLED='" + installed_ + "' IN_RELEASE='" + in_release_ +
-                                "' bash scripts/install_packages.sh >said 2>&1";
+    const std::string command =
+        "cd '" + root_.string() + "' && PATH=\"$PWD/tools:$PATH\" DEB_HOST_ARCH=" + arch +
+        " FAILS=" + (apt_fails ? "1" : "") + " INSTALLED='" + installed_ + "' IN_RELEASE='" +
+        in_release_ + "' bash scripts/install_packages.sh >said 2>&1";
     const int status = std::system(command.c_str());
     std::string asked = read_file(root_ / "asked").value_or("");
     for (auto at = asked.find("policy\n"); at != std::string::npos; at = asked.find("policy\n")) {
@@ -110,6 +111,14 @@ TEST(InstallPackages, WithoutTheOthersItDoesNot) {
   EXPECT_NE(lacks.said().find("no package new|old"), std::string::npos) << lacks.said();
   Machine offline(kPackages, "g++", "g++ new oracle");
   EXPECT_EQ(offline.run(true), "update -qq\nfailed");
+}
+
+TEST(InstallPackages, ForAnotherMachineLibrariesAreThatMachines) {
+  Machine machine("g++\nlibnew-dev|libold-dev\nlibforall-dev\nliboracle?\n", "",
+                  "g++ libold-dev libold-dev:arm64 libforall-dev g++-aarch64-linux-gnu qemu-user");
+  EXPECT_EQ(machine.run(false, "arm64"),
+            "update -qq\ninstall g++ libold-dev:arm64 libforall-dev g++-aarch64-linux-gnu "
+            "qemu-user\n");
 }
 
 }  // namespace

@@ -24,13 +24,14 @@ const fs::path kMission = CANOPEER_SOURCE_DIR "/missions/smoke.yaml";
 
 /// Runs the helper program; its exit status.
 int run_in_parts(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words = {RUN_IN_PARTS};
+  std::vector<std::string> words = {CANOPEER_EMULATOR, RUN_IN_PARTS};
+  if (words.front().empty()) words.erase(words.begin());
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   pid_t child = 0;
-  if (posix_spawn(&child, RUN_IN_PARTS, nullptr, nullptr, argv.data(), environ) != 0) return -1;
+  if (posix_spawn(&child, argv[0], nullptr, nullptr, argv.data(), environ) != 0) return -1;
   int status = 0;
   waitpid(child, &status, 0);
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;

@@ -12,11 +12,11 @@ SimdLevel best_simd_level() {
         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) {
       return SimdLevel::avx512;
     }
-    return avx2 ? SimdLevel::avx2 : SimdLevel::scalar;
+    return avx2 ? SimdLevel::avx2 : SimdLevel::narrow;
   }();
   return best;
 #else
-  return SimdLevel::scalar;
+  return SimdLevel::narrow;
 #endif
 }
 
@@ -26,6 +26,12 @@ const char* simd_level_name(SimdLevel level) {
       return "avx512";
     case SimdLevel::avx2:
       return "avx2";
+    case SimdLevel::narrow:
+#if defined(__aarch64__)
+      return "neon";
+#else
+      return "sse4.2";
+#endif
     case SimdLevel::scalar:
       break;
   }

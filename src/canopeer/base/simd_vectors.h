@@ -5,6 +5,10 @@
 
 #include "canopeer/base/simd_level.h"
 
+#if defined(__ARM_NEON)
+#include <arm_neon.h>
+#endif
+
 namespace canopeer {
 
 // Numbers that are reckoned with at once: vectors of the compiler (GCC, Clang), so that choices
@@ -54,6 +58,8 @@ template <typename Vector, typename Scalar>
   FourFloats bits;
   std::memcpy(&bits, &lanes, sizeof bits);
   return static_cast<unsigned>(__builtin_ia32_movmskps(bits));
+#elif defined(__ARM_NEON)
+  return static_cast<unsigned>(vaddvq_s32(lanes & FourBits{1, 2, 4, 8}));
 #else
   const FourBits set = lanes & FourBits{1, 2, 4, 8};
   return static_cast<unsigned>(set[0] | set[1] | set[2] | set[3]);
@@ -64,9 +70,16 @@ template <typename Vector, typename Scalar>
          lane_bits(__builtin_shufflevector(lanes, lanes, 4, 5, 6, 7)) << 4U;
 }
 
+/// Marks the twin of a function that is compiled for registers of 32 bytes, where there are such.
+#if defined(__x86_64__)
+#define CANOPEER_WIDE [[gnu::target("avx2")]]
+#else
+#define CANOPEER_WIDE
+#endif
+
 /// This machine has registers of 32 bytes.
 inline bool has_wide_registers() {
-  static const bool has = best_simd_level() != SimdLevel::scalar;
+  static const bool has = best_simd_level() >= SimdLevel::avx2;
   return has;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "canopeer/base/check.h"
+#include "canopeer/base/hypotenuse.h"
 
 namespace canopeer {
 namespace {
@@ -149,7 +150,7 @@ class Grid {
     for (int i = 0; i < piece.x.size(); ++i) {
       const double x = piece.x[i];
       const double y = piece.y[i];
-      const double amplitude = std::hypot(x, y);
+      const double amplitude = hypotenuse(x, y);
       if (amplitude < 1e-15) continue;
       const double tangent_a = ca * y - sa * x;
       const double tangent_b = cb * y - sb * x;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "canopeer/base/check.h"
+#include "canopeer/base/hypotenuse.h"
 
 namespace canopeer {
 namespace {
@@ -16,7 +17,7 @@ std::vector<Sphere> cover_cylinder(double radius, double length, double max_exce
   std::vector<Sphere> spheres;
   for (int i = 0; i < count; ++i)
     spheres.push_back(
-        {Vec3(0.0, 0.0, -length / 2.0 + (2 * i + 1) * half), std::hypot(radius, half)});
+        {Vec3(0.0, 0.0, -length / 2.0 + (2 * i + 1) * half), hypotenuse(radius, half)});
   return spheres;
 }
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "canopeer/base/hypotenuse.h"
+
 namespace canopeer {
 namespace {
 
@@ -54,7 +56,7 @@ FruitEvidence evidence_of(const FruitEstimate& fruit, const FruitMapOptions& opt
   e.rms_m = fruit.rms_m;
   e.fruit_share = seen.fruit_share;
   e.views = fruit.views;
-  e.size_sds = std::hypot((across - prior.radius_m) / prior.radius_sd_m,
+  e.size_sds = hypotenuse((across - prior.radius_m) / prior.radius_sd_m,
                           (fruit.semi_axes_m.z() - prior.half_length_m) / prior.half_length_sd_m);
   e.normal_spread = seen.normal_spread;
   e.foreign_share = seen.foreign_share;

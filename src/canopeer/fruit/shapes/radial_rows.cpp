@@ -113,8 +113,8 @@ constexpr double kTinyM = 1e-7;     // keeps logarithms finite on the body's pla
   }
 }
 
-[[gnu::target("avx2")]] void all_rows_wide(const ChunkedPoints::Chunk& chunk,
-                                           const RadialModel& model, RadialRows& rows) {
+CANOPEER_WIDE void all_rows_wide(const ChunkedPoints::Chunk& chunk, const RadialModel& model,
+                                 RadialRows& rows) {
   all_rows(chunk, model, rows);
 }
 
@@ -148,7 +148,7 @@ template <typename Product>
   });
 }
 
-[[gnu::target("avx2")]] void sum_products_wide(const RadialRows& rows, NormalEquations& sum) {
+CANOPEER_WIDE void sum_products_wide(const RadialRows& rows, NormalEquations& sum) {
   sum_products(rows, sum);
 }
 
@@ -170,11 +170,11 @@ ChunkedPoints::ChunkedPoints(std::span<const SurfacePoint> surface)
 
 void radial_rows(const ChunkedPoints::Chunk& chunk, const RadialModel& model, RadialRows& rows,
                  SimdLevel level) {
-  (level == SimdLevel::scalar ? all_rows_narrow : all_rows_wide)(chunk, model, rows);
+  (level >= SimdLevel::avx2 ? all_rows_wide : all_rows_narrow)(chunk, model, rows);
 }
 
 void add_products(const RadialRows& rows, NormalEquations& sum, SimdLevel level) {
-  (level == SimdLevel::scalar ? sum_products_narrow : sum_products_wide)(rows, sum);
+  (level >= SimdLevel::avx2 ? sum_products_wide : sum_products_narrow)(rows, sum);
 }
 
 }  // namespace canopeer

@@ -53,8 +53,8 @@ struct Row {
   }
 }
 
-[[gnu::target("avx2")]] void mark_row_wide(const Row& row, float max_range, float max_step,
-                                           float* marked, float* farthest) {
+CANOPEER_WIDE void mark_row_wide(const Row& row, float max_range, float max_step, float* marked,
+                                 float* farthest) {
   mark_row(row, max_range, max_step, marked, farthest);
 }
 
@@ -79,7 +79,7 @@ void FrameDepths::set(const DepthImage& depth, float max_range_m, float max_step
                      static_cast<std::size_t>(tile_rows_));
     farthest_row_.resize(static_cast<std::size_t>(tile_columns_) * kTile);
   }
-  const auto mark = level != SimdLevel::scalar ? mark_row_wide : mark_row_narrow;
+  const auto mark = level >= SimdLevel::avx2 ? mark_row_wide : mark_row_narrow;
   const float* const pixels = depth.pixels().data();
   for (int v = 0; v < height; ++v) {
     if (v % kTile == 0) std::fill(farthest_row_.begin(), farthest_row_.end(), 0.0F);

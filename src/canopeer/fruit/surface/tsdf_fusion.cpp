@@ -155,9 +155,8 @@ struct ProjectedRows {
   return count;
 }
 
-[[gnu::target("avx2")]] int fuse_cube_wide(Block& block, const VoxelIndex& first,
-                                           const Eigen::Vector3f& corner, const Common& c,
-                                           NearVoxel* near) {
+CANOPEER_WIDE int fuse_cube_wide(Block& block, const VoxelIndex& first,
+                                 const Eigen::Vector3f& corner, const Common& c, NearVoxel* near) {
   return fuse_cube_body(block, first, corner, c, near);
 }
 
@@ -224,7 +223,7 @@ void TsdfFusion::fuse_cube(Block& block, const VoxelIndex& first) const {
   std::array<NearVoxel, kCube * kCube * kCube> near;
   const Eigen::Vector3f corner =
       (T_camera_world_ * voxel_centre(block.index * kSide + first, options_.voxel_m)).cast<float>();
-  const auto fuse = level_ != SimdLevel::scalar ? fuse_cube_wide : fuse_cube_narrow;
+  const auto fuse = level_ >= SimdLevel::avx2 ? fuse_cube_wide : fuse_cube_narrow;
   const int count = fuse(block, first, corner, common_, near.data());
   for (int i = 0; i < count; ++i) take_looks(block.looks[near[i].voxel], near[i]);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "canopeer/base/simd_vectors.h"
 #include "canopeer/map/fusion/frame_kernel_parts.h"
 #include "canopeer/map/storage/kernel_targets.h"
 
@@ -48,9 +49,45 @@ void end_point_row_scalar(const PixelRow& row, const PixelRowEnds& ends) {
   end_points_from(row, ends, 0);
 }
 
-#if defined(__x86_64__)
-
 // The vector twins do the same operations in the same order, lane by lane.
+
+using TwoDoubles = double __attribute__((vector_size(16)));
+using TwoLongs = std::int64_t __attribute__((vector_size(16)));
+using TwoFloats = float __attribute__((vector_size(8)));
+using TwoInts = std::int32_t __attribute__((vector_size(8)));
+
+void end_point_row_narrow(const PixelRow& row, const PixelRowEnds& ends) {
+  const auto root = [](TwoDoubles x) { return TwoDoubles{std::sqrt(x[0]), std::sqrt(x[1])}; };
+  const TwoDoubles zero{};
+  const double no_return = row.clear_no_return ? 1.0 : 0.0;
+  std::size_t u = 0;
+  for (; u + 2 <= row.width; u += 2) {
+    const auto two = [u](const double* from) { return load_lanes<TwoDoubles>(from + u); };
+    const auto depth = __builtin_convertvector(load_lanes<TwoFloats>(row.depth + u), TwoDoubles);
+    const TwoDoubles limit = row.max_range_m / root(row.along2 + two(row.across2));
+    const auto returned = (depth > zero) & (depth <= kLargest);
+    const auto end = returned & (depth <= limit);
+    const TwoDoubles beyond = depth < zero ? zero : limit * no_return;
+    const TwoDoubles clear = returned ? limit : beyond;
+    const TwoDoubles d = end ? depth : zero;
+    const TwoDoubles free_depth = end ? depth : clear;
+    store_lanes(__builtin_convertvector(free_depth, TwoFloats), ends.free_depth + u);
+    store_lanes(-__builtin_convertvector(end, TwoInts), ends.is_end + u);
+    const auto voxel = [&](std::size_t axis, const double* across, std::int32_t* out) {
+      const TwoDoubles v =
+          (row.origin[axis] + d * (row.along[axis] + two(across))) / row.resolution_m;
+      const TwoDoubles whole = {std::floor(v[0]), std::floor(v[1])};
+      store_lanes(__builtin_convertvector(__builtin_convertvector(whole, TwoLongs), TwoInts),
+                  out + u);
+    };
+    voxel(0, row.across_x, ends.x);
+    voxel(1, row.across_y, ends.y);
+    voxel(2, row.across_z, ends.z);
+  }
+  end_points_from(row, ends, u);
+}
+
+#if defined(__x86_64__)
 
 CANOPEER_TARGET_AVX2 void end_point_row_avx2(const PixelRow& row, const PixelRowEnds& ends) {
   const __m256d zero = _mm256_setzero_pd();
@@ -163,7 +200,7 @@ CANOPEER_TARGET_AVX512 void end_point_row_avx512(const PixelRow& row, const Pixe
 }  // namespace
 
 EndPointRowKernel end_point_row_kernel([[maybe_unused]] SimdLevel level) {
-  return CANOPEER_AT_LEVEL(level, end_point_row);
+  return CANOPEER_AT_EACH_LEVEL(level, end_point_row);
 }
 
 }  // namespace canopeer

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "canopeer/base/simd_vectors.h"
 #include "canopeer/map/fusion/frame_kernel_parts.h"
 #include "canopeer/map/storage/kernel_targets.h"
 
@@ -34,6 +35,33 @@ CANOPEER_KERNEL_BODY void first_pixels_from(const LabelledRow& row, std::size_t 
 void first_pixels_scalar(const LabelledRow& row, std::uint64_t* first) {
   std::fill_n(first, (row.width + 63) / 64, std::uint64_t{0});
   first_pixels_from(row, 0, first);
+}
+
+void first_pixels_narrow(const LabelledRow& row, std::uint64_t* first) {
+  std::fill_n(first, (row.width + 63) / 64, std::uint64_t{0});
+  const FourBits most = all_lanes<FourBits>(std::int32_t{row.most});
+  FourBits before[4] = {};
+  std::size_t u = 0;
+  for (; u + 4 <= row.width; u += 4) {
+    const auto load = [u](const std::int32_t* from) { return load_lanes<FourBits>(from + u); };
+    FourBits label = load(row.ends.is_end);
+    const FourBits is_end = -label;
+    if (row.mask != nullptr) {
+      const FourBits value = {row.mask[u], row.mask[u + 1], row.mask[u + 2], row.mask[u + 3]};
+      label += is_end & (value < most ? value : most);
+    }
+    store_lanes(label, row.label + u);
+    const FourBits now[4] = {label, load(row.ends.x), load(row.ends.y), load(row.ends.z)};
+    const std::int32_t* above[4] = {row.label_above, row.above.x, row.above.y, row.above.z};
+    FourBits as_left = is_end, as_above = is_end;
+    for (int i = 0; i < 4; ++i) {
+      as_left &= now[i] == __builtin_shufflevector(before[i], now[i], 3, 4, 5, 6);
+      as_above &= now[i] == load(above[i]);
+      before[i] = now[i];
+    }
+    first[u / 64] |= std::uint64_t{lane_bits(is_end & ~(as_left | as_above))} << u % 64;
+  }
+  first_pixels_from(row, u, first);
 }
 
 #if defined(__x86_64__)
@@ -120,7 +148,7 @@ CANOPEER_TARGET_AVX512 void first_pixels_avx512(const LabelledRow& row, std::uin
 }  // namespace
 
 FirstPixelsKernel first_pixels_kernel([[maybe_unused]] SimdLevel level) {
-  return CANOPEER_AT_LEVEL(level, first_pixels);
+  return CANOPEER_AT_EACH_LEVEL(level, first_pixels);
 }
 
 }  // namespace canopeer

@@ -19,10 +19,10 @@ FrameKernels kernels_of(SimdLevel level) {
 }  // namespace
 
 const FrameKernels& frame_kernels(SimdLevel level) {
-  static const FrameKernels kScalar = kernels_of(SimdLevel::scalar);
-  static const FrameKernels kAvx2 = kernels_of(SimdLevel::avx2);
-  static const FrameKernels kAvx512 = kernels_of(SimdLevel::avx512);
-  return level == SimdLevel::avx512 ? kAvx512 : level == SimdLevel::avx2 ? kAvx2 : kScalar;
+  static const FrameKernels kKernels[] = {
+      kernels_of(SimdLevel::scalar), kernels_of(SimdLevel::narrow), kernels_of(SimdLevel::avx2),
+      kernels_of(SimdLevel::avx512)};
+  return kKernels[static_cast<std::size_t>(level)];
 }
 
 }  // namespace canopeer

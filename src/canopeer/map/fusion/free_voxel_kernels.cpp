@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "canopeer/base/simd_vectors.h"
 #include "canopeer/map/fusion/frame_kernel_parts.h"
 #include "canopeer/map/fusion/free_voxel_parts.h"
 #include "canopeer/map/storage/kernel_targets.h"
@@ -60,9 +61,43 @@ std::uint64_t nearer_scalar(const float* depth, const float* surface) {
   return nearer;
 }
 
-#if defined(__x86_64__)
-
 // The vector twins do the same operations in the same order, lane by lane.
+
+std::uint64_t project_narrow(const FlatPyramid& camera, const BlockProjection& offsets,
+                             const HalfBlock& half, const Projected& out) {
+  const auto width = static_cast<float>(camera.width);
+  const auto height = static_cast<float>(camera.height);
+  const FourFloats zero{}, one = all_lanes<FourFloats>(1.0F);
+  std::uint64_t seen = 0;
+  for (std::size_t lane = 0; lane < kHalfVoxels; lane += 4) {
+    const std::size_t slice = lane / 16, i = lane % 16;
+    const FourFloats depth = half.z[slice] + load_lanes<FourFloats>(&offsets.z[i]);
+    const FourBits before = depth > zero;
+    const FourFloats inverse = one / (before ? depth : one);
+    const FourFloats x = half.x[slice] + load_lanes<FourFloats>(&offsets.x[i]);
+    const FourFloats y = half.y[slice] + load_lanes<FourFloats>(&offsets.y[i]);
+    const FourFloats u = camera.fx * x * inverse + camera.cx;
+    const FourFloats v = camera.fy * y * inverse + camera.cy;
+    const FourBits in_image = before & (u >= zero) & (u < width) & (v >= zero) & (v < height);
+    const FourBits rows = __builtin_convertvector(in_image ? v : zero, FourBits) * camera.width;
+    const FourBits columns = __builtin_convertvector(in_image ? u : zero, FourBits);
+    store_lanes(depth, out.depth + lane);
+    store_lanes(rows + columns, out.pixel + lane);
+    seen |= std::uint64_t{lane_bits(in_image)} << lane;
+  }
+  return seen;
+}
+
+std::uint64_t nearer_narrow(const float* depth, const float* surface) {
+  std::uint64_t nearer = 0;
+  for (std::size_t i = 0; i < kHalfVoxels; i += 4) {
+    const FourBits lanes = load_lanes<FourFloats>(depth + i) < load_lanes<FourFloats>(surface + i);
+    nearer |= std::uint64_t{lane_bits(lanes)} << i;
+  }
+  return nearer;
+}
+
+#if defined(__x86_64__)
 
 CANOPEER_TARGET_AVX2 std::uint64_t project_avx2(const FlatPyramid& camera,
                                                 const BlockProjection& offsets,
@@ -184,6 +219,7 @@ CANOPEER_KERNEL_BODY VoxelMask free_in_block_body(const FlatPyramid& camera,
   }
 
 CANOPEER_KERNELS(scalar, )
+CANOPEER_KERNELS(narrow, )
 #if defined(__x86_64__)
 CANOPEER_KERNELS(avx2, CANOPEER_TARGET_AVX2)
 #endif
@@ -191,7 +227,7 @@ CANOPEER_KERNELS(avx2, CANOPEER_TARGET_AVX2)
 }  // namespace
 
 FreeInBlockKernel free_in_block_kernel([[maybe_unused]] SimdLevel level) {
-  return CANOPEER_AT_LEVEL(level, free_in_block);
+  return CANOPEER_AT_EACH_LEVEL(level, free_in_block);
 }
 
 }  // namespace canopeer

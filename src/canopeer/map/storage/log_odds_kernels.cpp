@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "canopeer/base/simd_vectors.h"
 #include "canopeer/map/storage/kernel_targets.h"
 
 namespace canopeer {
@@ -54,6 +55,58 @@ CANOPEER_KERNEL_BODY LogOddsRange miss_all_body(std::int16_t* cells, const LogOd
 
 LogOddsRange miss_all_scalar(std::int16_t* cells, const LogOddsSteps& steps) {
   return miss_all_body(cells, steps);
+}
+
+// 8 voxels at a time; a mask's bits are spread over the lanes they stand for.
+using EightShorts = std::int16_t __attribute__((vector_size(16)));
+constexpr EightShorts kLaneBit = {1, 2, 4, 8, 16, 32, 64, 128};
+
+CANOPEER_KERNEL_BODY EightShorts lanes_of(std::uint64_t bits) {
+  return (static_cast<std::int16_t>(bits & 0xFF) & kLaneBit) == kLaneBit;
+}
+
+// Bit i: lane i is set.
+CANOPEER_KERNEL_BODY std::uint64_t bits_of(const EightShorts& lanes) {
+#if defined(__ARM_NEON)
+  return static_cast<std::uint64_t>(vaddvq_s16(lanes & kLaneBit));
+#elif defined(__x86_64__)
+  return static_cast<std::uint64_t>(
+      _mm_movemask_epi8(_mm_packs_epi16(reinterpret_cast<__m128i>(lanes), _mm_setzero_si128())));
+#else
+  std::uint64_t bits = 0;
+  for (int i = 0; i < 8; ++i) bits |= static_cast<std::uint64_t>(lanes[i] & 1) << i;
+  return bits;
+#endif
+}
+
+void step_narrow(std::int16_t* cells, const VoxelMask& hit, const VoxelMask& miss,
+                 const LogOddsSteps& steps, VoxelMask& above) {
+  const auto low = all_lanes<EightShorts>(steps.min), high = all_lanes<EightShorts>(steps.max);
+  for (std::size_t z = 0; z < kBlockSide; ++z) {
+    const std::uint64_t stepped = hit.slices[z] | miss.slices[z];
+    if (stepped == 0) continue;
+    std::uint64_t now_above = 0;
+    for (unsigned shift = 0; shift < kSliceVoxels; shift += 8) {
+      if ((stepped >> shift & 0xFF) == 0) continue;
+      std::int16_t* place = cells + z * kSliceVoxels + shift;
+      const auto row = load_lanes<EightShorts>(place);
+      const EightShorts hits = lanes_of(hit.slices[z] >> shift);
+      const EightShorts misses = lanes_of(miss.slices[z] >> shift);
+      EightShorts next = row + ((hits & steps.hit) | (misses & steps.miss));
+      next = next < low ? low : next;
+      next = next > high ? high : next;
+      const EightShorts now = (hits | misses) ? next : row;
+      store_lanes(now, place);
+      now_above |= bits_of(now >= steps.threshold) << shift;
+    }
+    above.slices[z] = (above.slices[z] & ~stepped) | (now_above & stepped);
+  }
+}
+
+void fill_narrow(std::int16_t* cells, const VoxelMask& mask, std::int16_t value) {
+  for (std::size_t i = 0; i < kBlockVoxels; i += 8) {
+    store_lanes(lanes_of(mask.slices[i / 64] >> i % 64) & value, cells + i);
+  }
 }
 
 #if defined(__x86_64__)
@@ -165,11 +218,12 @@ constexpr LogOddsKernels kLogOdds_avx512 = {step_avx512, fill_avx512, miss_all_a
 #endif
 
 constexpr LogOddsKernels kLogOdds_scalar = {step_scalar, fill_scalar, miss_all_scalar};
+constexpr LogOddsKernels kLogOdds_narrow = {step_narrow, fill_narrow, miss_all_scalar};
 
 }  // namespace
 
 const LogOddsKernels& log_odds_kernels([[maybe_unused]] SimdLevel level) {
-  return CANOPEER_AT_LEVEL(level, kLogOdds);
+  return CANOPEER_AT_EACH_LEVEL(level, kLogOdds);
 }
 
 }  // namespace canopeer

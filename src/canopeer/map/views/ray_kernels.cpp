@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 
+#include "canopeer/base/simd_vectors.h"
 #include "canopeer/map/storage/kernel_targets.h"
 
 namespace canopeer {
@@ -62,6 +63,47 @@ void walk_rays_scalar(const RayLanes& rays, std::size_t voxels, const RaySteps& 
       mark(out.leaves_slice[step], leaves_slice);
       mark(out.leaves_block[step], leaves_block);
       if (leaves_slice) run = 0;
+    }
+  }
+}
+
+void walk_rays_narrow(const RayLanes& rays, std::size_t voxels, const RaySteps& out) {
+  using Two = std::int64_t __attribute__((vector_size(16)));
+  const Two one = {1, 1}, none{};
+  std::fill_n(out.leaves_slice, voxels, std::uint8_t{0});
+  std::fill_n(out.leaves_block, voxels, std::uint8_t{0});
+  for (std::size_t lane = 0; lane < kLanes; lane += 2) {
+    const auto two = [lane](const RayLanes::Lanes& from) { return load_lanes<Two>(&from[lane]); };
+    Two at = two(rays.at), run{};
+    Two tx = two(rays.t[0]), ty = two(rays.t[1]), tz = two(rays.t[2]);
+    const Two dx = two(rays.dt[0]), dy = two(rays.dt[1]), dz = two(rays.dt[2]);
+    const Two mx = two(rays.move[0]), my = two(rays.move[1]), mz = two(rays.move[2]);
+    for (std::size_t step = 0; step < voxels; ++step) {
+      const std::size_t place = step * kLanes + lane;
+      run |= one << ((at & kMaskX) | (at >> kShiftY & kMaskY));
+      store_lanes(at, out.at + place);
+      const Two slice = at >> kShiftZ & PackedVoxel{kBlockSide - 1};
+      out.slice[place] = static_cast<std::uint8_t>(slice[0]);
+      out.slice[place + 1] = static_cast<std::uint8_t>(slice[1]);
+      store_lanes(run, out.run + place);
+      const Two x_before_y = tx < ty;
+      const Two on_z = tz < (x_before_y ? tx : ty);
+      const Two on_x = x_before_y & ~on_z;
+      const Two on_y = ~(x_before_y | on_z);
+      const Two before = at;
+      at += (mx & on_x) | (my & on_y) | (mz & on_z);
+      tx += dx & on_x;
+      ty += dy & on_y;
+      tz += dz & on_z;
+      const Two change = at ^ before;
+      const Two leaves_slice = (change & kSlicePart) != none;
+      const Two leaves_block = (change & kBlockPart) != none;
+      run &= ~leaves_slice;
+      const auto mark = [lane](std::uint8_t& lanes, const Two& leaves) {
+        lanes = static_cast<std::uint8_t>(lanes | ((leaves[0] & 1) | (leaves[1] & 2)) << lane);
+      };
+      mark(out.leaves_slice[step], leaves_slice);
+      mark(out.leaves_block[step], leaves_block);
     }
   }
 }
@@ -272,7 +314,7 @@ StartRays start_rays_kernel([[maybe_unused]] SimdLevel level) {
 }
 
 WalkRays walk_rays_kernel([[maybe_unused]] SimdLevel level) {
-  return CANOPEER_AT_LEVEL(level, walk_rays);
+  return CANOPEER_AT_EACH_LEVEL(level, walk_rays);
 }
 
 }  // namespace canopeer

@@ -47,7 +47,7 @@ ViewCaster::Scratch& ViewCaster::scratch() {
 ViewCaster::ViewCaster(const VoxelMap& map, const Box& world, bool all, SimdLevel simd)
     : map_(map),
       all_(all),
-      has_bmi2_(simd != SimdLevel::scalar),
+      has_bmi2_(simd >= SimdLevel::avx2),
       start_rays_(start_rays_kernel(simd)),
       walk_rays_(walk_rays_kernel(simd)),
       collect_unknown_(collect_unknown_kernel(simd)),

@@ -10,6 +10,8 @@
 
 #if defined(__SSE4_1__)
 #include <immintrin.h>
+#elif defined(__ARM_NEON)
+#include <arm_neon.h>
 #endif
 
 namespace canopeer {
@@ -44,6 +46,8 @@ using Words = std::uint32_t __attribute__((vector_size(4 * kLanes)));
   return _mm256_sqrt_ps(x);
 #elif defined(__SSE4_1__)
   return _mm_sqrt_ps(x);
+#elif defined(__ARM_NEON)
+  return vsqrtq_f32(x);
 #else
   for (int i = 0; i < kLanes; ++i) x[i] = __builtin_sqrtf(x[i]);
   return x;
@@ -57,6 +61,8 @@ using Words = std::uint32_t __attribute__((vector_size(4 * kLanes)));
   return _mm256_floor_ps(x);
 #elif defined(__SSE4_1__)
   return _mm_floor_ps(x);
+#elif defined(__ARM_NEON)
+  return vrndmq_f32(x);
 #else
   for (int i = 0; i < kLanes; ++i) x[i] = __builtin_floorf(x[i]);
   return x;

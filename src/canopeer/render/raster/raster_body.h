@@ -35,6 +35,8 @@ bool any(Mask m) {
   return _mm256_movemask_ps(reinterpret_cast<__m256>(m)) != 0;
 #elif defined(__SSE4_1__)
   return _mm_movemask_ps(reinterpret_cast<__m128>(m)) != 0;
+#elif defined(__ARM_NEON)
+  return vmaxvq_u32(reinterpret_cast<uint32x4_t>(m)) != 0;
 #else
   std::int32_t some = 0;
   for (int i = 0; i < kLanes; ++i) some |= m[i];

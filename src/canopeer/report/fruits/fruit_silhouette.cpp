@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "canopeer/base/hypotenuse.h"
 #include "canopeer/report/html_text.h"
 
 namespace canopeer {
@@ -38,7 +39,7 @@ std::string silhouette_svg(const FruitBody& body, const PictureProjection& p,
   const Eigen::Matrix2d m = p * body.shape * p.transpose();
   const double mean = 0.5 * (m(0, 0) + m(1, 1));
   const double difference = 0.5 * (m(0, 0) - m(1, 1));
-  const double spread = std::hypot(difference, m(0, 1));
+  const double spread = hypotenuse(difference, m(0, 1));
   const double angle_deg = 0.5 * std::atan2(m(0, 1), difference) * 180.0 / std::numbers::pi;
   return fmt::format(
       "<ellipse cx=\"{0:.1f}\" cy=\"{1:.1f}\" rx=\"{2:.1f}\" ry=\"{3:.1f}\" "

@@ -159,7 +159,7 @@ bool CollisionChecker::pair_free(const Obstacle& obstacle, const ArmLink& arm_li
   return true;
 }
 
-[[gnu::target("avx2")]] bool CollisionChecker::state_free_wide(const Configuration& q) const {
+CANOPEER_WIDE bool CollisionChecker::state_free_wide(const Configuration& q) const {
   return look_at_state(q);
 }
 

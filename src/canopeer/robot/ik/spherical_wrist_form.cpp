@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "canopeer/base/hypotenuse.h"
 #include "canopeer/robot/ik/axis_geometry.h"
 #include "canopeer/robot/ik/closed_form_ik.h"
 
@@ -120,7 +121,7 @@ int SphericalWristForm::wrist(const Eigen::Matrix3d& R_wrist, const SixAngles& a
   const Vec3 side_6 = z5_.cross(z6_);
   const Vec3 v = R_wrist * z6_;
   const Vec3 u = R_wrist.transpose() * z4_;
-  const double sine = std::hypot(v.dot(side_4), v.dot(z5_));
+  const double sine = hypotenuse(v.dot(side_4), v.dot(z5_));
   const double bend = std::atan2(sine, v.dot(z4_));
   for (const double side : {1.0, -1.0}) {
     SixAngles q = arm;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "canopeer/base/hypotenuse.h"
 #include "canopeer/geometry/angles.h"
 #include "canopeer/robot/ik/axis_geometry.h"
 #include "canopeer/robot/ik/closed_form_ik.h"
@@ -93,7 +94,7 @@ int UrForm::branches(const Pose& T_base_camera, double last_reference,
                      std::array<SixAngles, kMaxBranches>& out) const {
   const Pose T_0_6 = T_0_base_ * T_base_camera * T_camera_6_;
   const Vec3 p = T_0_6.translation();  // where axes 5 and 6 meet: no matter of θ6
-  const double radius = std::hypot(p.x(), p.y());
+  const double radius = hypotenuse(p.x(), p.y());
   if (radius <= std::abs(d4_)) return 0;
 
   int count = 0;
@@ -105,7 +106,7 @@ int UrForm::branches(const Pose& T_base_camera, double last_reference,
     const double s1 = std::sin(theta[0]);
     const Vec3 z1(s1, -c1, 0.0);
     const Vec3 z1_in_6 = T_0_6.linear().transpose() * z1;  // (s5 c6, −s5 s6, c5)
-    const double sine_5 = std::hypot(z1_in_6.x(), z1_in_6.y());
+    const double sine_5 = hypotenuse(z1_in_6.x(), z1_in_6.y());
     const bool singular = sine_5 < kSingularSine5;
     const double bent_wrist = std::atan2(sine_5, z1_in_6.z());
     for (const double side : {1.0, -1.0}) {

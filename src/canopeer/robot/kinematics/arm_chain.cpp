@@ -155,8 +155,8 @@ void ArmChain::turn_any(std::size_t segment, const Eigen::Matrix4d& parent, doub
   }
 }
 
-[[gnu::target("avx2")]] void ArmChain::follow_wide(const Motions& motions, const Pose& T_root,
-                                                   Pose* T) const {
+CANOPEER_WIDE void ArmChain::follow_wide(const Motions& motions, const Pose& T_root,
+                                         Pose* T) const {
   follow(motions, T_root, T);
 }
 

@@ -74,8 +74,7 @@ using Bits = std::int64_t __attribute__((vector_size(32)));
 
 // AVX2 only doubles the width; contraction to fused operations is off for all code, so the bits are
 // those of the narrow version.
-[[gnu::target("avx2")]] void sin_cos_wide(const double* angles, int count, double* sines,
-                                          double* cosines) {
+CANOPEER_WIDE void sin_cos_wide(const double* angles, int count, double* sines, double* cosines) {
   for (int i = 0; i < count; i += 4) four(angles + i, sines + i, cosines + i);
 }
 
