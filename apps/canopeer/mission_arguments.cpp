@@ -1,6 +1,7 @@
 #include "mission_arguments.h"
 
 #include "exit_status.h"
+#include "robot_source.h"
 #include "shipped_data.h"
 
 namespace canopeer::app {
@@ -19,6 +20,7 @@ StageRequest stage_request(const MissionArguments& arguments, const Overrides& e
   request.overrides.insert(request.overrides.end(), extra.begin(), extra.end());
   request.table_dirs = {request.mission.parent_path() / "../compute_tables",
                         shipped_data() / "compute_tables"};
+  request.package_path = ros_package_path();
   return request;
 }
 

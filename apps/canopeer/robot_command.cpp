@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 #include "canopeer/base/atomic_file.h"
 #include "canopeer/config/robot_file.h"
@@ -11,6 +13,7 @@
 #include "commands.h"
 #include "exit_status.h"
 #include "robot_picture.h"
+#include "robot_source.h"
 
 namespace canopeer::app {
 namespace {
@@ -71,8 +74,16 @@ void check_first_look(const RobotModel& robot, Findings& findings) {
   }
 }
 
+bool has_arm_shapes(const RobotModel& robot) {
+  const auto& moving = robot.moving_links();
+  return std::any_of(moving.begin(), moving.end(), [&](int link) {
+    return !robot.links()[static_cast<std::size_t>(link)].collision.empty();
+  });
+}
+
 void check_homes(const RobotModel& robot, Findings& findings) {
   std::printf("home states\n");
+  const char* const free = has_arm_shapes(robot) ? "free" : "nothing to check";
   const ExactChecker exact(robot);
   for (int side = 1; side <= robot.sides(); ++side) {
     const std::string name = "side_" + std::to_string(side);
@@ -92,7 +103,7 @@ void check_homes(const RobotModel& robot, Findings& findings) {
         findings.wrong("home state '" + name + "'" + where +
                        " is free, but nearer to contact than the planner allows");
       } else {
-        std::printf("  %s%s: free\n", name.c_str(), where);
+        std::printf("  %s%s: %s\n", name.c_str(), where, free);
       }
     }
   }
@@ -123,7 +134,25 @@ void check_known_free(const RobotModel& robot, Findings& findings) {
   }
 }
 
-void check_reach(const RobotModel& robot, const ArmIk& ik, int views, Findings& findings) {
+/// The robot as it would be with suggested.srdf.
+std::optional<RobotModel> with_suggested_pairs(const RobotModel& robot,
+                                               const std::vector<LinkPairSurvey>& pairs) {
+  RobotDescription description = robot.description();
+  bool more = false;
+  for (const LinkPairSurvey& pair : pairs) {
+    if (pair.disabled || pair.reason_to_disable() == nullptr) continue;
+    description.disabled_pairs.emplace_back(pair.link_a, pair.link_b);
+    more |= !pair.never();
+  }
+  if (!more) return std::nullopt;
+  auto model = RobotModel::make(std::move(description), robot.setup());
+  if (!model) return std::nullopt;
+  return std::move(*model);
+}
+
+void check_reach(const RobotModel& robot, const ArmIk& ik, int views,
+                 const std::vector<LinkPairSurvey>& pairs, Findings& findings) {
+  const std::optional<RobotModel> suggested = with_suggested_pairs(robot, pairs);
   std::printf("reach (%d random views a side, target in the sampling region 0.3-0.6 m away)\n",
               views);
   if (robot.sides() == 0) findings.wrong("no sides: a mission needs workspace and sampling region");
@@ -134,8 +163,15 @@ void check_reach(const RobotModel& robot, const ArmIk& ik, int views, Findings& 
                      ": no place in the workspace is 0.3-0.6 m from the sampling region");
       continue;
     }
-    std::printf("  side %d: %.1f %% reached, %.1f %% without touching itself or the trolley\n",
-                side, 100.0 * survey.reached / survey.views, 100.0 * survey.free / survey.views);
+    std::printf("  side %d: %.1f %% reached, %.1f %% without touching itself or the trolley%s\n",
+                side, 100.0 * survey.reached / survey.views, 100.0 * survey.free / survey.views,
+                has_arm_shapes(robot) ? "" : ", which is not checked");
+    if (suggested) {
+      const ReachSurvey then = survey_reach(*suggested, ik, side, views, kSeed);
+      std::printf("    with suggested.srdf: %.1f %% without touching\n",
+                  100.0 * then.free / then.views);
+      if (survey.free == 0 && then.free > 0) continue;
+    }
     if (survey.free == 0) {
       findings.wrong("side " + std::to_string(side) +
                      ": no view of it can be taken; its boxes are given in '" +
@@ -166,6 +202,8 @@ std::vector<LinkPairSurvey> check_pairs(const RobotModel& robot, int states, Fin
   for (const LinkPairSurvey& pair : pairs) checked += pair.disabled ? 0 : 1;
   std::printf("link pairs (%d random states): %zu, of which %d are checked\n", states, pairs.size(),
               checked);
+  if (robot.description().neighbours_may_touch)
+    std::printf("  no srdf: pairs that a joint connects are left out\n");
   for (const LinkPairSurvey& pair : pairs) {
     const std::string names = pair.link_a + " / " + pair.link_b;
     if (!pair.disabled && pair.adjacent && !pair.never())
@@ -197,20 +235,24 @@ void print_covers(const RobotModel& robot) {
 /// Reads a robot, says what it is, what is wrong with it and where, and writes pictures and an
 /// SRDF.
 void robot_check(const RobotCheckArguments& arguments) {
-  const RobotModel robot = value_or_stop(load_robot(arguments.robot), kBadInput);
+  const RobotModel robot =
+      value_or_stop(load_robot(arguments.robot, {}, ros_package_path()), kBadInput);
   const ArmIk ik = value_or_stop(ArmIk::make(robot), kBadInput);
   Findings findings;
   print_joints(robot, ik);
+  if (!has_arm_shapes(robot))
+    findings.wrong("nothing of the arm can be checked for contact: no link of it has a shape");
+  const int before_pairs = findings.count();
   // First, because pairs that always touch spoil all that follows.
   const auto pairs = check_pairs(robot, arguments.states, findings);
-  if (findings.count() > 0)
+  if (findings.count() > before_pairs)
     std::printf(
         "  suggested.srdf disables what always or never touches: put it beside the robot "
         "file and name it there as srdf\n");
   check_homes(robot, findings);
   check_first_look(robot, findings);
   check_known_free(robot, findings);
-  check_reach(robot, ik, arguments.views, findings);
+  check_reach(robot, ik, arguments.views, pairs, findings);
   print_covers(robot);
 
   const fs::path out = arguments.out.empty() ? fs::path("out") / "robot" : fs::path(arguments.out);

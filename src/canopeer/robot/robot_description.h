@@ -84,6 +84,8 @@ struct RobotDescription {
   std::vector<Joint> joints;
   /// Pairs of links that need no self-collision check: neighbours, and pairs that can never meet.
   std::vector<std::pair<std::string, std::string>> disabled_pairs;
+  /// No SRDF says which pairs those are: links that a joint connects need no check.
+  bool neighbours_may_touch = false;
   std::vector<std::string> notices;  ///< what its files lack but can be done without
 };
 

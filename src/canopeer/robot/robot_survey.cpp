@@ -1,5 +1,6 @@
 #include "canopeer/robot/robot_survey.h"
 
+#include <algorithm>
 #include <map>
 
 #include "canopeer/base/rng.h"
@@ -65,6 +66,12 @@ std::vector<LinkPairSurvey> survey_link_pairs(const RobotModel& robot, int state
   return pairs;
 }
 
+const char* LinkPairSurvey::reason_to_disable() const {
+  if (adjacent) return "Adjacent";
+  if (always()) return "Always";
+  return never() ? "Never" : nullptr;
+}
+
 std::string srdf_of(const std::string& robot_name, const std::vector<LinkPairSurvey>& pairs) {
   std::string srdf =
       "<?xml version=\"1.0\"?>\n<!-- Pairs of links that need no check: joined by a joint, or "
@@ -73,10 +80,7 @@ std::string srdf_of(const std::string& robot_name, const std::vector<LinkPairSur
       std::to_string(pairs.empty() ? 0 : pairs.front().states) +
       " random states. -->\n<robot name=\"" + robot_name + "\">\n";
   for (const LinkPairSurvey& pair : pairs) {
-    const char* const reason = pair.adjacent   ? "Adjacent"
-                               : pair.always() ? "Always"
-                               : pair.never()  ? "Never"
-                                               : nullptr;
+    const char* const reason = pair.reason_to_disable();
     if (reason == nullptr) continue;
     srdf += "  <disable_collisions link1=\"" + pair.link_a + "\" link2=\"" + pair.link_b +
             "\" reason=\"" + reason + "\"/>\n";
@@ -144,8 +148,12 @@ std::vector<CoverSurvey> survey_covers(const RobotModel& robot, double sphere_ex
       const auto cover = cover_with_spheres(shape, sphere_excess_m);
       spheres.insert(spheres.end(), cover.begin(), cover.end());
     }
-    covers.push_back(
-        {link.name, static_cast<int>(spheres.size()), measure_cover(link.collision, spheres)});
+    // Each sample is held against all of them.
+    constexpr std::size_t kFew = 64;
+    const std::size_t many = std::max(kFew, spheres.size() + link.collision.size());
+    const int samples = static_cast<int>(200000 * kFew / many);
+    covers.push_back({link.name, static_cast<int>(spheres.size()),
+                      measure_cover(link.collision, spheres, samples)});
   }
   return covers;
 }

@@ -20,6 +20,8 @@ struct LinkPairSurvey {
 
   [[nodiscard]] bool always() const { return touching == states; }
   [[nodiscard]] bool never() const { return touching == 0; }
+  /// "Adjacent", "Always" or "Never"; null: it should be checked.
+  [[nodiscard]] const char* reason_to_disable() const;
 };
 
 /// All pairs of links with shapes that something moves against each other, in the order of

@@ -92,8 +92,11 @@ Expected<std::unique_ptr<Stage>> Stage::make(const StageRequest& request,
 Expected<std::unique_ptr<Stage>> Stage::make(MissionFile file, const StageRequest& request,
                                              const RunRegistries& registries) {
   if (request.realtime) put_on_the_wall_clock(file, request.threads);
-  auto robot = load_robot(file.robot, file.T_frame_camera);
+  auto robot = load_robot(file.robot, file.T_frame_camera, request.package_path);
   if (!robot) return tl::unexpected(robot.error());
+  for (const std::string& notice : robot->description().notices) {
+    if (request.callbacks.on_notice) request.callbacks.on_notice(notice);
+  }
   auto ik = ArmIk::make(*robot);
   if (!ik) return tl::unexpected(ik.error());
   if (auto ok = check(file, *robot, registries); !ok) return tl::unexpected(ok.error());
