@@ -6,8 +6,8 @@
 #include "canopeer/scene/scene_hash.h"
 #include "commands.h"
 #include "exit_status.h"
-#include "robot_source.h"
 #include "occlusion_report.h"
+#include "robot_source.h"
 #include "scene_source.h"
 #include "world_builder.h"
 

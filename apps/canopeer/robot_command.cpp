@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <optional>
 
 #include "canopeer/base/atomic_file.h"
@@ -51,6 +52,23 @@ void print_joints(const RobotModel& robot, const ArmIk& ik) {
                 robot.limits().velocity[i], slide ? "m" : "rad", robot.limits().acceleration[i],
                 slide ? "m" : "rad");
   }
+}
+
+/// What stands for the links in collision checks.
+void print_shapes(const RobotModel& robot) {
+  std::map<ShapeKind, int> counts;
+  std::size_t shapes = 0;
+  std::size_t triangles = 0;
+  for (const Link& link : robot.links()) {
+    for (const CollisionShape& shape : link.collision) {
+      ++shapes;
+      ++counts[shape.kind];
+      if (shape.mesh != nullptr) triangles += shape.mesh->triangles.triangles.size();
+    }
+  }
+  std::printf("collision shapes: %zu (%d boxes, %d cylinders, %d spheres, %d meshes), %zu triangles\n",
+              shapes, counts[ShapeKind::kBox], counts[ShapeKind::kCylinder],
+              counts[ShapeKind::kSphere], counts[ShapeKind::kMesh], triangles);
 }
 
 /// Whether the camera's axis meets the sampling region of the side the home state is for: the first
@@ -240,6 +258,7 @@ void robot_check(const RobotCheckArguments& arguments) {
   const ArmIk ik = value_or_stop(ArmIk::make(robot), kBadInput);
   Findings findings;
   print_joints(robot, ik);
+  print_shapes(robot);
   if (!has_arm_shapes(robot))
     findings.wrong("nothing of the arm can be checked for contact: no link of it has a shape");
   const int before_pairs = findings.count();
