@@ -160,7 +160,7 @@ std::optional<RobotModel> with_suggested_pairs(const RobotModel& robot,
   for (const LinkPairSurvey& pair : pairs) {
     if (pair.disabled || pair.reason_to_disable() == nullptr) continue;
     description.disabled_pairs.emplace_back(pair.link_a, pair.link_b);
-    more |= !pair.never();
+    more = true;
   }
   if (!more) return std::nullopt;
   auto model = RobotModel::make(std::move(description), robot.setup());
@@ -184,11 +184,15 @@ void check_reach(const RobotModel& robot, const ArmIk& ik, int views,
     std::printf("  side %d: %.1f %% reached, %.1f %% without touching itself or the trolley%s\n",
                 side, 100.0 * survey.reached / survey.views, 100.0 * survey.free / survey.views,
                 has_arm_shapes(robot) ? "" : ", which is not checked");
-    if (suggested) {
-      const ReachSurvey then = survey_reach(*suggested, ik, side, views, kSeed);
+    const ReachSurvey then =
+        suggested ? survey_reach(*suggested, ik, side, views, kSeed) : ReachSurvey();
+    if (then.free > survey.free)
       std::printf("    with suggested.srdf: %.1f %% without touching\n",
                   100.0 * then.free / then.views);
-      if (survey.free == 0 && then.free > 0) continue;
+    if (survey.free == 0 && then.free > 0) {
+      findings.wrong("side " + std::to_string(side) +
+                     ": no view of it can be taken without an SRDF such as suggested.srdf");
+      continue;
     }
     if (survey.free == 0) {
       findings.wrong("side " + std::to_string(side) +
@@ -215,6 +219,7 @@ void check_reach(const RobotModel& robot, const ArmIk& ik, int views,
 
 std::vector<LinkPairSurvey> check_pairs(const RobotModel& robot, int states, Findings& findings) {
   constexpr double kOften = 0.3;
+  constexpr int kNeverShown = 20;
   const auto pairs = survey_link_pairs(robot, states, kSeed);
   int checked = 0;
   for (const LinkPairSurvey& pair : pairs) checked += pair.disabled ? 0 : 1;
@@ -222,6 +227,7 @@ std::vector<LinkPairSurvey> check_pairs(const RobotModel& robot, int states, Fin
               checked);
   if (robot.description().neighbours_may_touch)
     std::printf("  no srdf: pairs that a joint connects are left out\n");
+  int never = 0;
   for (const LinkPairSurvey& pair : pairs) {
     const std::string names = pair.link_a + " / " + pair.link_b;
     if (!pair.disabled && pair.adjacent && !pair.never())
@@ -231,12 +237,14 @@ std::vector<LinkPairSurvey> check_pairs(const RobotModel& robot, int states, Fin
     else if (!pair.disabled && pair.touching > kOften * pair.states)
       std::printf("  touch in %.1f %% of the states, are their shapes too large? %s\n",
                   100.0 * pair.touching / pair.states, names.c_str());
-    else if (!pair.disabled && pair.never())
+    else if (!pair.disabled && pair.never() && ++never <= kNeverShown)
       std::printf("  never touch, could be disabled: %s\n", names.c_str());
     else if (pair.disabled && !pair.adjacent && !pair.never() && !pair.always())
       std::printf("  disabled, though they touch in %.1f %% of the states: %s\n",
                   100.0 * pair.touching / pair.states, names.c_str());
   }
+  if (never > kNeverShown)
+    std::printf("  never touch, could be disabled: %d more pairs\n", never - kNeverShown);
   return pairs;
 }
 

@@ -68,6 +68,7 @@ MeshUri split(std::string name) {
   if (colon != std::string::npos) {
     MeshUri uri{lower(name.substr(0, colon)), name.substr(colon + 3)};
     if (uri.scheme == "file" && uri.rest.rfind("localhost/", 0) == 0) uri.rest.erase(0, 9);
+    if (uri.scheme != "file") uri.rest.erase(0, uri.rest.find_first_not_of('/'));
     return uri;
   }
   if (lower(name.substr(0, 6)) == "file:/") return {"file", name.substr(5)};
@@ -139,7 +140,7 @@ tl::expected<fs::path, MeshTrouble> RobotMeshReader::find(const std::string& nam
     return tl::unexpected(
         MeshTrouble{"cannot be fetched; expected package://, model://, file:// or a path", ""});
   const auto slash = uri.rest.find_first_of("/\\");
-  if (slash == std::string::npos || slash == 0)
+  if (slash == std::string::npos)
     return tl::unexpected(MeshTrouble{"names no file; expected package://PACKAGE/FILE", ""});
   const std::string package = percent_decoded(uri.rest.substr(0, slash));
   std::vector<fs::path> wanted;

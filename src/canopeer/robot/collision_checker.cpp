@@ -5,6 +5,7 @@
 
 #include "canopeer/base/check.h"
 #include "canopeer/map/distance_field.h"
+#include "canopeer/robot/collision/convex_gap.h"
 
 namespace canopeer {
 namespace {
@@ -204,8 +205,20 @@ double CollisionChecker::shape_clearance(const Pose& T_world_body, const Vec3& c
   return clearance;
 }
 
+bool CollisionChecker::has_mesh(const Obstacle& obstacle, int arm_shape) const {
+  return obstacle.shape.kind == ShapeKind::kMesh || arm_shapes_[arm_shape].kind == ShapeKind::kMesh;
+}
+
+/// Between a shape of the arm and an obstacle, at least. `T_shape_body`: the arm's body seen from the
+/// obstacle's shape.
+double CollisionChecker::mesh_gap(const Obstacle& obstacle, int arm_shape,
+                                  const Pose& T_shape_body) const {
+  const CollisionShape& own = arm_shapes_[arm_shape];
+  return convex_gap(obstacle.shape, own, T_shape_body * own.T_link_shape);
+}
+
 // Coarse to fine: sphere around the shape against sphere around the link, shape against the latter,
-// shape against the link's spheres.
+// shape against the link's spheres; where a mesh is concerned and those say no, solid against solid.
 bool CollisionChecker::measure_self(const State& state, const Required& required,
                                     Clearances& clearances) const {
   for (const Obstacle& obstacle : obstacles_) {
@@ -232,10 +245,19 @@ bool CollisionChecker::measure_self(const State& state, const Required& required
       }
       if (clearance < enough) {
         clearance = kFarM;
-        for (int i = arm_link.first_sphere; i < arm_link.last_sphere; ++i)
-          clearance = std::min(
-              clearance,
-              signed_distance(obstacle.shape, T_shape_world * state.centres[i]) - radii_m_[i]);
+        int asked = -1;  // the shape whose gap is known
+        double gap = 0.0;
+        for (int i = arm_link.first_sphere; i < arm_link.last_sphere; ++i) {
+          double own = signed_distance(obstacle.shape, T_shape_world * state.centres[i]) - radii_m_[i];
+          if (own < enough && has_mesh(obstacle, sphere_shapes_[i])) {
+            if (asked != sphere_shapes_[i]) {
+              asked = sphere_shapes_[i];
+              gap = mesh_gap(obstacle, asked, T_shape_world * state.T_world_body[arm_link.body]);
+            }
+            own = std::max(own, gap);
+          }
+          clearance = std::min(clearance, own);
+        }
       }
       if (clearance < required.self[part]) return false;
       clearances[part] = std::min(clearances[part], clearance);

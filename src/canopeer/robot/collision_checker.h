@@ -25,7 +25,7 @@ struct CollisionOptions {
 /// against the other links' exact shapes and against a distance field of the map. Where a sphere
 /// comes too near the map, the link's shape itself is held against the voxels around. What it calls
 /// free is free on the true geometry. It may reject states that miss a voxel by the padding, or
-/// another link by the padding plus the spheres' excess. Any number of links and shapes: what nothing
+/// another link by the padding plus the spheres' excess; of meshes it asks the convex solids first. Any number of links and shapes: what nothing
 /// moves against each other is placed as one body. Allocates nothing but once per thread. Const
 /// members are safe to call from several threads.
 class CollisionChecker {
@@ -116,6 +116,8 @@ class CollisionChecker {
   bool look_at_block(std::size_t first_link, std::size_t count, const Pose* T_world_body,
                      const double*& apart2) const;
   bool group_free(const Pose& T_world_body, const SphereGroup& group) const;
+  bool has_mesh(const Obstacle& obstacle, int arm_shape) const;
+  double mesh_gap(const Obstacle& obstacle, int arm_shape, const Pose& T_shape_body) const;
   bool pair_free(const Obstacle& obstacle, const ArmLink& arm_link, const Pose* T_world_body) const;
   bool measure(const Configuration& q, const Required& required, Clearances& clearances) const;
   bool measure_self(const State& state, const Required& required, Clearances& clearances) const;

@@ -22,6 +22,7 @@ struct ShapeMesh {
   std::string file;  ///< where it was read from
   TriangleMesh triangles;
   std::vector<Plane> planes;  ///< the smallest solid around it with faces in 26 fixed directions
+  std::vector<Vec3> corners;  ///< of that solid
 };
 
 /// A solid placed in a link: convex and centred at its own origin, or a mesh with its bounding box

@@ -14,10 +14,11 @@ constexpr double kMaxPieces = 4096.0;
 
 /// Thick boxes and meshes are cut in pieces no thicker: spheres around larger ones would stick out
 /// far, and would be larger than what distance fields know.
-constexpr double kThickestM = 0.12;
+constexpr double kThickestBoxM = 0.12;
+constexpr double kThickestMeshM = 0.025;
 
-double thickness(const Vec3& edges, double max_excess) {
-  return std::max(std::min(edges.minCoeff(), kThickestM), 2.0 * max_excess);
+double thickness(const Vec3& edges, double thickest, double max_excess) {
+  return std::max(std::min(edges.minCoeff(), thickest), 2.0 * max_excess);
 }
 
 std::vector<Sphere> cover_cylinder(double radius, double length, double max_excess) {
@@ -34,7 +35,7 @@ std::vector<Sphere> cover_cylinder(double radius, double length, double max_exce
 }
 
 std::vector<Sphere> cover_box(const Vec3& edges, double max_excess) {
-  double cell_edge = thickness(edges, max_excess);
+  double cell_edge = thickness(edges, kThickestBoxM, max_excess);
   const auto cells = [&] {
     return (edges / cell_edge - Vec3::Constant(1e-9)).array().ceil().max(1.0).eval();
   };
@@ -72,7 +73,7 @@ Sphere sphere_around(const std::vector<Vec3>& points) {
 /// diagonal, holds it.
 std::vector<Sphere> cover_mesh(const CollisionShape& shape, double max_excess) {
   const Vec3 edges = shape.size_m;
-  double thin = thickness(edges, max_excess);
+  double thin = thickness(edges, kThickestMeshM, max_excess);
   Eigen::Index longest = 0;
   edges.maxCoeff(&longest);
   const auto cut = [&] { return (edges / (1.5 * thin)).array().round().max(1.0).eval(); };

@@ -54,6 +54,7 @@ TEST_F(Meshes, AreFoundHoweverTheyAreSpelled) {
        {std::string("package://arm/meshes/fore arm.STL"),
         std::string("package://arm/meshes/fore%20arm.STL"),
         std::string("package://arm/meshes\\fore arm.STL"),
+        std::string("package:///arm/meshes/fore arm.STL"),
         std::string("model://arm/meshes/fore arm.STL"), std::string("../meshes/fore arm.STL"),
         std::string("..\\meshes\\fore%20arm.STL"), std::string("  ../meshes/fore arm.STL\n"),
         "file://" + absolute + "/meshes/fore%20arm.STL", "file:" + absolute + "/meshes/fore arm.STL",

@@ -94,10 +94,16 @@ bool CollisionChecker::pair_free(const Obstacle& obstacle, const ArmLink& arm_li
   const Vec3 bound = T_shape_world * (T_world_arm * arm_link.bound.centre);
   if (signed_distance(obstacle.shape, bound) - arm_link.bound.radius_m >= options_.self_padding_m)
     return true;
+  int apart = -1;  // the shape of the link last found to be
   for (int i = arm_link.first_sphere; i < arm_link.last_sphere; ++i) {
     const Vec3 centre = T_shape_world * (T_world_arm * centres_[i]);
-    if (signed_distance(obstacle.shape, centre) - radii_m_[i] < options_.self_padding_m)
+    if (signed_distance(obstacle.shape, centre) - radii_m_[i] >= options_.self_padding_m) continue;
+    const int shape = sphere_shapes_[i];
+    if (shape == apart) continue;
+    if (!has_mesh(obstacle, shape) ||
+        mesh_gap(obstacle, shape, T_shape_world * T_world_arm) < options_.self_padding_m)
       return false;
+    apart = shape;
   }
   return true;
 }
