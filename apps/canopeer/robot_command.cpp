@@ -66,9 +66,10 @@ void print_shapes(const RobotModel& robot) {
       if (shape.mesh != nullptr) triangles += shape.mesh->triangles.triangles.size();
     }
   }
-  std::printf("collision shapes: %zu (%d boxes, %d cylinders, %d spheres, %d meshes), %zu triangles\n",
-              shapes, counts[ShapeKind::kBox], counts[ShapeKind::kCylinder],
-              counts[ShapeKind::kSphere], counts[ShapeKind::kMesh], triangles);
+  std::printf(
+      "collision shapes: %zu (%d boxes, %d cylinders, %d spheres, %d meshes), %zu triangles\n",
+      shapes, counts[ShapeKind::kBox], counts[ShapeKind::kCylinder], counts[ShapeKind::kSphere],
+      counts[ShapeKind::kMesh], triangles);
 }
 
 /// Whether the camera's axis meets the sampling region of the side the home state is for: the first

@@ -25,8 +25,8 @@ std::vector<std::filesystem::path> ros_package_path() {
 }
 
 RobotModel robot_of(const MissionFile& file) {
-  RobotModel robot = value_or_stop(load_robot(file.robot, file.T_frame_camera, ros_package_path()),
-                                   kBadInput);
+  RobotModel robot =
+      value_or_stop(load_robot(file.robot, file.T_frame_camera, ros_package_path()), kBadInput);
   for (const std::string& notice : robot.description().notices)
     std::fprintf(stderr, "canopeer: notice: %s\n", notice.c_str());
   return robot;

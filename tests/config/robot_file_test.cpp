@@ -326,9 +326,8 @@ TEST(Urdf, ReadsFramesAxesLimitsAndShapes) {
 }
 
 TEST(Srdf, NamesTheLineOfAPairThatIsNone) {
-  const std::string message =
-      message_with("ur5e_trolley.srdf",
-                   replaced(shipped("ur5e_trolley.srdf"), "link2=\"", "link_2=\""));
+  const std::string message = message_with(
+      "ur5e_trolley.srdf", replaced(shipped("ur5e_trolley.srdf"), "link2=\"", "link_2=\""));
   EXPECT_EQ(message, "ur5e_trolley.srdf:6: <disable_collisions> needs link2");
 }
 

@@ -151,10 +151,11 @@ Expected<void> check_reach(const RobotModel& robot) {
   const double reach = arm_reach_m(robot);
   if (reach <= kFarthest) return {};
   char text[192];
-  std::snprintf(text, sizeof text,
-                "the arm reaches up to %.4g m from '%s'; expected at most %.0f m: are its joints or "
-                "meshes given in millimetres?",
-                reach, robot.setup().base_link.c_str(), kFarthest);
+  std::snprintf(
+      text, sizeof text,
+      "the arm reaches up to %.4g m from '%s'; expected at most %.0f m: are its joints or "
+      "meshes given in millimetres?",
+      reach, robot.setup().base_link.c_str(), kFarthest);
   return fail(text);
 }
 

@@ -17,10 +17,9 @@ namespace canopeer {
 /// Where the camera is mounted on the URDF's camera frame (hand–eye transformation) comes from
 /// `T_frame_camera`, else from the file's `camera_mounting`, else it is that frame.
 /// `package_path`: where packages of meshes are looked for besides the file's own `package_path`.
-[[nodiscard]] Expected<RobotModel> load_robot(const std::filesystem::path& path,
-                                              const std::optional<Pose>& T_frame_camera = {},
-                                              const std::vector<std::filesystem::path>&
-                                                  package_path = {});
+[[nodiscard]] Expected<RobotModel> load_robot(
+    const std::filesystem::path& path, const std::optional<Pose>& T_frame_camera = {},
+    const std::vector<std::filesystem::path>& package_path = {});
 
 /// `xyz_m` and `rpy_deg` (fixed axes x, y, z), both zero by default.
 [[nodiscard]] Pose read_pose(YamlMap pose);

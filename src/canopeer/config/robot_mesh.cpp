@@ -20,8 +20,9 @@ bool is_file(const fs::path& path) {
 }
 
 std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c); });
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
+    return static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
+  });
   return text;
 }
 
@@ -37,7 +38,8 @@ std::string percent_decoded(const std::string& text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const bool coded = text[i] == '%' && i + 2 < text.size() && hex_digit(text[i + 1]) >= 0 &&
                        hex_digit(text[i + 2]) >= 0;
-    out += coded ? static_cast<char>(16 * hex_digit(text[i + 1]) + hex_digit(text[i + 2])) : text[i];
+    out +=
+        coded ? static_cast<char>(16 * hex_digit(text[i + 1]) + hex_digit(text[i + 2])) : text[i];
     if (coded) i += 2;
   }
   return out;
@@ -48,8 +50,7 @@ std::vector<std::string> spellings(const std::string& name) {
   std::string slashes = name;
   std::replace(slashes.begin(), slashes.end(), '\\', '/');
   std::vector<std::string> all;
-  for (const std::string& text :
-       {name, percent_decoded(name), slashes, percent_decoded(slashes)}) {
+  for (const std::string& text : {name, percent_decoded(name), slashes, percent_decoded(slashes)}) {
     if (std::find(all.begin(), all.end(), text) == all.end()) all.push_back(text);
   }
   return all;
@@ -87,7 +88,8 @@ std::string near_name_beside(const fs::path& wanted) {
   std::error_code code;
   for (fs::directory_iterator it(wanted.parent_path(), code), end; !code && it != end;
        it.increment(code)) {
-    if (is_file(it->path())) names.insert(it->path().filename().string());
+    if (is_mesh_file(it->path()) && is_file(it->path()))
+      names.insert(it->path().filename().string());
   }
   const fs::path file = wanted.filename();
   for (const std::string& name : names) {
@@ -155,22 +157,21 @@ tl::expected<fs::path, MeshTrouble> RobotMeshReader::find(const std::string& nam
     }
   }
   if (!folders.empty())
-    return tl::unexpected(MeshTrouble{
-        "not found; looked in " + listed(folders) + " (another '" + package +
-            "' is named by package_path in the robot file)",
-        near(wanted)});
-  std::string what = "not found; looked in " + listed(packages_.starts()) +
-                     " for a package '" + package +
-                     "' (a folder of that name, or one whose package.xml has it; add the folder that "
-                     "holds it to package_path in the robot file";
+    return tl::unexpected(MeshTrouble{"not found; looked in " + listed(folders) + " (another '" +
+                                          package + "' is named by package_path in the robot file)",
+                                      near(wanted)});
+  std::string what =
+      "not found; looked in " + listed(packages_.starts()) + " for a package '" + package +
+      "' (a folder of that name, or one whose package.xml has it; add the folder that "
+      "holds it to package_path in the robot file";
   const std::string other = packages_.nearest(package);
   if (!other.empty()) what += "; there is a package '" + other + "'";
   return tl::unexpected(MeshTrouble{what + ")", near({fs::path("/") / uri.rest})});
 }
 
 tl::expected<CollisionShape, MeshTrouble> RobotMeshReader::load(const std::string& name,
-                                                            const Vec3& scale,
-                                                            const Pose& T_link_mesh) {
+                                                                const Vec3& scale,
+                                                                const Pose& T_link_mesh) {
   const auto path = find(name);
   if (!path) return tl::unexpected(path.error());
   const auto trouble = [&](const std::string& what) {
@@ -199,9 +200,10 @@ tl::expected<CollisionShape, MeshTrouble> RobotMeshReader::load(const std::strin
     if (scale.prod() < 0.0) {  // mirrored: what was outside must stay outside
       for (auto& triangle : all.triangles) std::swap(triangle[1], triangle[2]);
     }
-    known = read_.emplace(key, CollisionShape::of_mesh(std::move(all), Pose::Identity(),
-                                                       path->string()))
-                .first;
+    known =
+        read_
+            .emplace(key, CollisionShape::of_mesh(std::move(all), Pose::Identity(), path->string()))
+            .first;
   }
   CollisionShape shape = known->second;
   shape.T_link_shape = T_link_mesh * shape.T_link_shape;

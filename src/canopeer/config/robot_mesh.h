@@ -29,8 +29,8 @@ class RobotMeshReader {
  public:
   explicit RobotMeshReader(const MeshSearch& search);
 
-  /// The file a URDF's mesh name means. `package://NAME/REST` and `model://NAME/REST` are files of a
-  /// package (config/package_search.h); `file://` and plain names are paths, relative ones beside
+  /// The file a URDF's mesh name means. `package://NAME/REST` and `model://NAME/REST` are files of
+  /// a package (config/package_search.h); `file://` and plain names are paths, relative ones beside
   /// the URDF. %20 means a blank and \ means / where there is no file of the name as it stands.
   [[nodiscard]] tl::expected<std::filesystem::path, MeshTrouble> find(const std::string& name);
 

@@ -37,9 +37,11 @@ std::string links_without_shapes(const RobotDescription& robot,
     any_checked |= !link->collision.empty();
     if (link->collision.empty() && !link->visual.empty()) seen_only.push_back(link->name);
   }
-  const std::string remedy = "; 'collision: visual' in the robot file takes the visual shapes for it";
+  const std::string remedy =
+      "; 'collision: visual' in the robot file takes the visual shapes for it";
   if (!any_checked) {
-    return "no link that moves with the arm has a collision shape: nothing is checked, every motion "
+    return "no link that moves with the arm has a collision shape: nothing is checked, every "
+           "motion "
            "counts as free" +
            (seen_only.empty() ? "; give the links <collision> shapes" : remedy);
   }

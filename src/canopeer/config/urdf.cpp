@@ -92,9 +92,9 @@ std::string skeleton_of(const tinyxml2::XMLDocument& document) {
 }
 
 /// In the order of their names.
-Expected<void> read_links(const urdf::ModelInterface& model,
-                          const tinyxml2::XMLDocument& document, const std::string& name,
-                          const UrdfOptions& options, RobotDescription& robot) {
+Expected<void> read_links(const urdf::ModelInterface& model, const tinyxml2::XMLDocument& document,
+                          const std::string& name, const UrdfOptions& options,
+                          RobotDescription& robot) {
   RobotMeshReader meshes(options.meshes);
   UrdfShapes collision(name, meshes);
   UrdfShapes visual(name, meshes);

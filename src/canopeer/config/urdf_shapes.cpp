@@ -53,8 +53,7 @@ std::optional<Pose> origin_of(const tinyxml2::XMLElement& element) {
     if (rpy.empty()) return std::nullopt;
     urdf::Rotation turn;
     turn.setFromRPY(rpy[0], rpy[1], rpy[2]);
-    T.linear() =
-        Eigen::Quaterniond(turn.w, turn.x, turn.y, turn.z).normalized().toRotationMatrix();
+    T.linear() = Eigen::Quaterniond(turn.w, turn.x, turn.y, turn.z).normalized().toRotationMatrix();
   }
   return T;
 }
@@ -99,8 +98,7 @@ void UrdfShapes::read_one(const tinyxml2::XMLElement& element,
   const auto* const geometry = element.FirstChildElement("geometry");
   const auto* child = geometry == nullptr ? nullptr : geometry->FirstChildElement();
   if (child == nullptr) {
-    notices_.push_back(place(element) + ": a <" + element.Name() +
-                       "> without a shape is left out");
+    notices_.push_back(place(element) + ": a <" + element.Name() + "> without a shape is left out");
     return;
   }
   const auto* shape = child;
@@ -144,8 +142,7 @@ void UrdfShapes::read_one(const tinyxml2::XMLElement& element,
                                         : CollisionShape::cylinder(size[0], size[1], *T));
     return;
   }
-  notices_.push_back(place(*shape) + ": a <" + std::string(kind) +
-                     "> of no size is left out");
+  notices_.push_back(place(*shape) + ": a <" + std::string(kind) + "> of no size is left out");
 }
 
 void UrdfShapes::read_mesh(const tinyxml2::XMLElement& mesh, const Pose& T_link_shape,
@@ -191,7 +188,7 @@ std::vector<std::string> UrdfShapes::troubles() const {
     std::string line = trouble.first + " " + trouble.what;
     if (!trouble.near.empty()) line += "; there is " + trouble.near;
     if (!trouble.further.empty()) {
-      line += "; nor are " + std::to_string(trouble.meshes.size() - 1) + " more, in line ";
+      line += "; " + std::to_string(trouble.meshes.size() - 1) + " more, in line ";
       for (std::size_t i = 0; i < trouble.further.size(); ++i)
         line += (i == 0 ? "" : ", ") + trouble.further[i];
       if (trouble.meshes.size() > kNamesShown) line += ", …";

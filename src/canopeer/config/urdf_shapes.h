@@ -23,8 +23,8 @@ class UrdfShapes {
   /// The shapes of `link`; `tag`: "collision" or "visual".
   [[nodiscard]] std::vector<CollisionShape> read(const tinyxml2::XMLElement& link, const char* tag);
 
-  /// What was wrong, with file, line and link, one line a cause: all meshes that are missing for the
-  /// same reason share one. Empty: nothing.
+  /// What was wrong, with file, line and link, one line a cause: all meshes that are missing for
+  /// the same reason share one. Empty: nothing.
   [[nodiscard]] std::vector<std::string> troubles() const;
   /// What can be done without: shapes of no size; and what is odd: very large meshes.
   [[nodiscard]] const std::vector<std::string>& notices() const { return notices_; }
@@ -32,8 +32,8 @@ class UrdfShapes {
  private:
   struct Trouble {
     std::string what;
-    std::string first;               // "robot.urdf:7: link 'a': mesh 'b.stl'"
-    std::vector<std::string> meshes;  // names, the first one too
+    std::string first;                 // "robot.urdf:7: link 'a': mesh 'b.stl'"
+    std::vector<std::string> meshes;   // names, the first one too
     std::vector<std::string> further;  // "9 'c.stl' (there is c.STL)"
     std::string near;                  // of the first
   };

@@ -164,9 +164,7 @@ void CollisionChecker::measure_reach(const Sphere& bound_link, ArmLink& arm_link
   }
 }
 
-void CollisionChecker::set_map(const DistanceField* map) {
-  map_ = map;
-}
+void CollisionChecker::set_map(const DistanceField* map) { map_ = map; }
 
 bool CollisionChecker::measure_map(const State& state, const Required& required,
                                    Clearances& clearances) const {
@@ -209,8 +207,8 @@ bool CollisionChecker::has_mesh(const Obstacle& obstacle, int arm_shape) const {
   return obstacle.shape.kind == ShapeKind::kMesh || arm_shapes_[arm_shape].kind == ShapeKind::kMesh;
 }
 
-/// Between a shape of the arm and an obstacle, at least. `T_shape_body`: the arm's body seen from the
-/// obstacle's shape.
+/// Between a shape of the arm and an obstacle, at least. `T_shape_body`: the arm's body seen from
+/// the obstacle's shape.
 double CollisionChecker::mesh_gap(const Obstacle& obstacle, int arm_shape,
                                   const Pose& T_shape_body) const {
   const CollisionShape& own = arm_shapes_[arm_shape];
@@ -218,7 +216,8 @@ double CollisionChecker::mesh_gap(const Obstacle& obstacle, int arm_shape,
 }
 
 // Coarse to fine: sphere around the shape against sphere around the link, shape against the latter,
-// shape against the link's spheres; where a mesh is concerned and those say no, solid against solid.
+// shape against the link's spheres; where a mesh is concerned and those say no, solid against
+// solid.
 bool CollisionChecker::measure_self(const State& state, const Required& required,
                                     Clearances& clearances) const {
   for (const Obstacle& obstacle : obstacles_) {
@@ -248,7 +247,8 @@ bool CollisionChecker::measure_self(const State& state, const Required& required
         int asked = -1;  // the shape whose gap is known
         double gap = 0.0;
         for (int i = arm_link.first_sphere; i < arm_link.last_sphere; ++i) {
-          double own = signed_distance(obstacle.shape, T_shape_world * state.centres[i]) - radii_m_[i];
+          double own =
+              signed_distance(obstacle.shape, T_shape_world * state.centres[i]) - radii_m_[i];
           if (own < enough && has_mesh(obstacle, sphere_shapes_[i])) {
             if (asked != sphere_shapes_[i]) {
               asked = sphere_shapes_[i];

@@ -25,9 +25,9 @@ struct CollisionOptions {
 /// against the other links' exact shapes and against a distance field of the map. Where a sphere
 /// comes too near the map, the link's shape itself is held against the voxels around. What it calls
 /// free is free on the true geometry. It may reject states that miss a voxel by the padding, or
-/// another link by the padding plus the spheres' excess; of meshes it asks the convex solids first. Any number of links and shapes: what nothing
-/// moves against each other is placed as one body. Allocates nothing but once per thread. Const
-/// members are safe to call from several threads.
+/// another link by the padding plus the spheres' excess; of meshes it asks the convex solids first.
+/// Any number of links and shapes: what nothing moves against each other is placed as one body.
+/// Allocates nothing but once per thread. Const members are safe to call from several threads.
 class CollisionChecker {
  public:
   /// `robot` must outlive the checker.
@@ -63,7 +63,8 @@ class CollisionChecker {
   [[nodiscard]] int sphere_count() const { return static_cast<int>(radii_m_.size()); }
 
  private:
-  /// Clearances are kept for so many parts of the arm: each link, or where there are more, each body.
+  /// Clearances are kept for so many parts of the arm: each link, or where there are more, each
+  /// body.
   static constexpr int kMaxParts = 24;
   static_assert(kMaxParts >= kMaxArmJoints);
   /// With more of them they are made coarser, down to two a shape.
@@ -82,9 +83,9 @@ class CollisionChecker {
     Sphere bound;                 // around all of them, body frame
     std::vector<double> reach_m;  // per arm joint that moves it: no point is farther from its axis
   };
-  struct Obstacle {   // a shape of the robot, trolley included, that arm links can run into
-    int body = -1;  // that its link is fixed to; −1: it rests
-    CollisionShape shape;           // placed in its body, or in its link if it rests
+  struct Obstacle {        // a shape of the robot, trolley included, that arm links can run into
+    int body = -1;         // that its link is fixed to; −1: it rests
+    CollisionShape shape;  // placed in its body, or in its link if it rests
     Vec3 centre =
         Vec3::Zero();  // of a sphere around the shape: in its body, or in world if it rests
     double radius_m = 0.0;
@@ -141,8 +142,8 @@ class CollisionChecker {
   std::vector<int> sphere_shapes_;          // which of these each sphere helps to cover
   std::vector<Obstacle> obstacles_;
   std::vector<SphereGroup> groups_;
-  // Per block of arm links, obstacle and arm link of the block, in steps of four: the squared distance
-  // between their bounds from which on they are apart. Negative: they need not be.
+  // Per block of arm links, obstacle and arm link of the block, in steps of four: the squared
+  // distance between their bounds from which on they are apart. Negative: they need not be.
   std::vector<double> apart2_m2_;
   double max_radius_m_ = 0.0;
 };

@@ -33,8 +33,8 @@ std::vector<Vec3> corners_of(const std::vector<ShapeMesh::Plane>& planes, const 
         normals << planes[i].normal.transpose(), planes[j].normal.transpose(),
             planes[k].normal.transpose();
         if (std::abs(normals.determinant()) < 1e-3) continue;
-        const Vec3 p = normals.inverse() *
-                       Vec3(planes[i].offset_m, planes[j].offset_m, planes[k].offset_m);
+        const Vec3 p =
+            normals.inverse() * Vec3(planes[i].offset_m, planes[j].offset_m, planes[k].offset_m);
         const bool inside =
             std::all_of(planes.begin(), planes.end(), [&](const ShapeMesh::Plane& plane) {
               return plane.normal.dot(p) <= plane.offset_m + kTolerance * (1.0 + half.norm());

@@ -126,8 +126,8 @@ class RobotModel {
   }
 
   /// The arm's bodies, base to tool: what each arm joint carries up to the next one, as one piece.
-  /// Their poses, those of the joints' links, given the one of the base link. Allocates nothing; `T`
-  /// has room for dof() poses.
+  /// Their poses, those of the joints' links, given the one of the base link. Allocates nothing;
+  /// `T` has room for dof() poses.
   void body_poses(const Configuration& q, const Pose& T_world_base, Pose* T) const {
     camera_chain_.poses(q, T_world_base, T);
   }
@@ -176,7 +176,7 @@ class RobotModel {
   std::vector<int> base_path_;    // nodes from the root to the base link
   std::vector<char> pair_checked_;
   std::vector<char> group_has_shape_;  // of the rigid group named after each link
-  ArmChain moving_chain_;  // parallel to moving_links_
+  ArmChain moving_chain_;              // parallel to moving_links_
   std::vector<int> moving_links_;
   int moving_root_ = 0;
   ArmChain camera_chain_;  // a segment per arm joint, seen from the base link

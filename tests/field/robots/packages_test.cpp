@@ -57,8 +57,10 @@ TEST_F(Meshes, AreFoundHoweverTheyAreSpelled) {
         std::string("package:///arm/meshes/fore arm.STL"),
         std::string("model://arm/meshes/fore arm.STL"), std::string("../meshes/fore arm.STL"),
         std::string("..\\meshes\\fore%20arm.STL"), std::string("  ../meshes/fore arm.STL\n"),
-        "file://" + absolute + "/meshes/fore%20arm.STL", "file:" + absolute + "/meshes/fore arm.STL",
-        "file://localhost" + absolute + "/meshes/fore arm.STL", absolute + "/meshes/fore arm.STL"}) {
+        "file://" + absolute + "/meshes/fore%20arm.STL",
+        "file:" + absolute + "/meshes/fore arm.STL",
+        "file://localhost" + absolute + "/meshes/fore arm.STL",
+        absolute + "/meshes/fore arm.STL"}) {
     EXPECT_EQ(found(name), "arm/meshes/fore arm.STL") << name;
   }
   EXPECT_EQ(found("file://own.obj"), "arm/urdf/own.obj");
@@ -92,17 +94,17 @@ TEST_F(Meshes, OfPackagesOfOtherNamesAreFoundBesideAboveAndInWorkspaces) {
 TEST_F(Meshes, ThatAreMissingAreSaidAtOnceWithWhatThereIs) {
   folder_.put("arm/meshes/base.STL", "");
   folder_.put("arm/meshes/elbow_v2.stl", "");
-  const std::string text = message(mesh("package://arm/meshes/base.stl") +
-                                   mesh("package://arm/meshes/elbow_v3.stl") +
-                                   mesh("package://arm/meshes/base.stl") +
-                                   mesh("package://hand/meshes/finger.stl"));
+  const std::string text =
+      message(mesh("package://arm/meshes/base.stl") + mesh("package://arm/meshes/elbow_v3.stl") +
+              mesh("package://arm/meshes/base.stl") + mesh("package://hand/meshes/finger.stl"));
   EXPECT_EQ(text.find('\n'), std::string::npos);
-  EXPECT_TRUE(has(text, "a.urdf:3: link 'a': mesh 'package://arm/meshes/base.stl' not found; looked "
-                        "in " +
-                            (folder_.path() / "arm").string()))
+  EXPECT_TRUE(has(text,
+                  "a.urdf:3: link 'a': mesh 'package://arm/meshes/base.stl' not found; looked "
+                  "in " +
+                      (folder_.path() / "arm").string()))
       << text;
   EXPECT_TRUE(has(text, "there is " + (folder_.path() / "arm/meshes/base.STL").string())) << text;
-  EXPECT_TRUE(has(text, "nor are 1 more, in line 4 'package://arm/meshes/elbow_v3.stl' (there is " +
+  EXPECT_TRUE(has(text, "; 1 more, in line 4 'package://arm/meshes/elbow_v3.stl' (there is " +
                             (folder_.path() / "arm/meshes/elbow_v2.stl").string()))
       << text;
   EXPECT_TRUE(has(text, "a.urdf:6: link 'a': mesh 'package://hand/meshes/finger.stl'")) << text;

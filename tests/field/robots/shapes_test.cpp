@@ -19,10 +19,10 @@ std::string shape(const std::string& geometry, const std::string& origin = "") {
 
 TEST(Capsule, IsWhatIsWithinItsRadiusOfItsAxis) {
   for (const std::string prefix : {"", "drake:"}) {
-    const auto robot = parse_urdf(
-        one_link(shape("<" + prefix + "capsule radius='0.05' length='0.3'/>",
-                       "<origin xyz='0.1 0.2 0.3' rpy='0 1.5707963267948966 0'/>")),
-        "a.urdf");
+    const auto robot =
+        parse_urdf(one_link(shape("<" + prefix + "capsule radius='0.05' length='0.3'/>",
+                                  "<origin xyz='0.1 0.2 0.3' rpy='0 1.5707963267948966 0'/>")),
+                   "a.urdf");
     ASSERT_TRUE(robot) << robot.error().message;
     const auto& shapes = robot->links.at(0).collision;
     ASSERT_EQ(shapes.size(), 3U);
@@ -35,17 +35,19 @@ TEST(Capsule, IsWhatIsWithinItsRadiusOfItsAxis) {
       const Vec3 on_axis(std::clamp(p.x(), 0.1 - 0.15, 0.1 + 0.15), 0.2, 0.3);
       const double expected = (p - on_axis).norm() - 0.05;
       ASSERT_EQ(distance > 0.0, expected > 0.0) << p.transpose();
-      if (expected > 0.0) ASSERT_NEAR(distance, expected, 1e-9);
+      if (expected > 0.0) {
+        ASSERT_NEAR(distance, expected, 1e-9);
+      }
     }
   }
 }
 
 TEST(Shape, OfNoSizeIsLeftOutAndSaid) {
-  const auto robot = parse_urdf(
-      one_link(shape("<box size='0 0 0'/>") + shape("<sphere radius='0.1'/>") +
-               shape("<cylinder radius='0.1' length='0'/>") + shape("") +
-               shape("<capsule radius='0.1' length='0'/>")),
-      "a.urdf");
+  const auto robot =
+      parse_urdf(one_link(shape("<box size='0 0 0'/>") + shape("<sphere radius='0.1'/>") +
+                          shape("<cylinder radius='0.1' length='0'/>") + shape("") +
+                          shape("<capsule radius='0.1' length='0'/>")),
+                 "a.urdf");
   ASSERT_TRUE(robot) << robot.error().message;
   EXPECT_EQ(robot->links.at(0).collision.size(), 2U);  // the sphere, and the capsule that is one
   ASSERT_EQ(robot->notices.size(), 3U);
@@ -124,9 +126,9 @@ TEST(Mesh, ThatIsFlatOrFoldedIsCheckedAsAnyOther) {
 TEST(Mesh, ReadForTwoLinksIsOne) {
   const test::OwnFolder folder;
   folder.put("corner.obj", test::corner_obj(0.1));
-  const auto robot = parse_urdf(one_link(mesh("corner.obj") + mesh("./corner.obj") +
-                                         mesh("corner.obj", "scale='2 2 2'")),
-                                "a.urdf", {{folder.path(), {}}});
+  const auto robot = parse_urdf(
+      one_link(mesh("corner.obj") + mesh("./corner.obj") + mesh("corner.obj", "scale='2 2 2'")),
+      "a.urdf", {{folder.path(), {}}});
   ASSERT_TRUE(robot) << robot.error().message;
   const auto& shapes = robot->links.at(0).collision;
   ASSERT_EQ(shapes.size(), 3U);
@@ -137,8 +139,7 @@ TEST(Mesh, ReadForTwoLinksIsOne) {
 TEST(Mesh, InMillimetresIsAskedAbout) {
   const test::OwnFolder folder;
   folder.put("corner.obj", test::corner_obj(120.0));
-  const auto robot =
-      parse_urdf(one_link(mesh("corner.obj")), "a.urdf", {{folder.path(), {}}});
+  const auto robot = parse_urdf(one_link(mesh("corner.obj")), "a.urdf", {{folder.path(), {}}});
   ASSERT_TRUE(robot) << robot.error().message;
   ASSERT_EQ(robot->notices.size(), 1U);
   EXPECT_TRUE(has(robot->notices[0], "is 120 m across: in millimetres?")) << robot->notices[0];

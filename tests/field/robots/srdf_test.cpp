@@ -17,8 +17,9 @@ bool checked(const RobotModel& robot, const std::string& a, const std::string& b
 TEST(Srdf, ThatNamesLinksTheRobotHasNotIsTakenForWhatItHas) {
   const RobotModel robot = test::robot_of("foreign_srdf/gripper.yaml");
   const std::string notices = notices_of(robot);
-  EXPECT_TRUE(has(notices, "gripper.srdf:4: the robot has no link 'left_finger', 'right_finger'; "
-                           "what is said of them is left out"))
+  EXPECT_TRUE(has(notices,
+                  "gripper.srdf:4: the robot has no link 'left_finger', 'right_finger'; "
+                  "what is said of them is left out"))
       << notices;
   EXPECT_FALSE(has(notices, "another robot")) << notices;
   EXPECT_FALSE(checked(robot, "link5", "link6"));

@@ -146,7 +146,8 @@ bool CollisionChecker::pair_free(const Obstacle& obstacle, const ArmLink& arm_li
       const LaneMask near = dx * dx + dy * dy + dz * dz < load_lanes<FourDoubles>(apart2);
       if ((near[0] | near[1] | near[2] | near[3]) == 0) continue;
       for (int lane = 0; lane < kLanes; ++lane) {
-        if (near[lane] != 0 && !pair_free(obstacle, links[first + lane], T_world_body)) return false;
+        if (near[lane] != 0 && !pair_free(obstacle, links[first + lane], T_world_body))
+          return false;
       }
     }
   }
