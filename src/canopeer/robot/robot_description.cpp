@@ -1,10 +1,10 @@
 #include "canopeer/robot/robot_description.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "canopeer/base/check.h"
+#include "canopeer/robot/convex_corners.h"
 
 namespace canopeer {
 namespace {
@@ -20,33 +20,6 @@ std::vector<Vec3> directions() {
     }
   }
   return all;
-}
-
-/// Where three of the planes meet and none of the others cuts off.
-std::vector<Vec3> corners_of(const std::vector<ShapeMesh::Plane>& planes, const Vec3& half) {
-  constexpr double kTolerance = 1e-9;
-  std::vector<Vec3> corners;
-  Eigen::Matrix3d normals;
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    for (std::size_t j = i + 1; j < planes.size(); ++j) {
-      for (std::size_t k = j + 1; k < planes.size(); ++k) {
-        normals << planes[i].normal.transpose(), planes[j].normal.transpose(),
-            planes[k].normal.transpose();
-        if (std::abs(normals.determinant()) < 1e-3) continue;
-        const Vec3 p =
-            normals.inverse() * Vec3(planes[i].offset_m, planes[j].offset_m, planes[k].offset_m);
-        const bool inside =
-            std::all_of(planes.begin(), planes.end(), [&](const ShapeMesh::Plane& plane) {
-              return plane.normal.dot(p) <= plane.offset_m + kTolerance * (1.0 + half.norm());
-            });
-        const bool known = std::any_of(corners.begin(), corners.end(), [&](const Vec3& corner) {
-          return (corner - p).squaredNorm() < kTolerance * kTolerance;
-        });
-        if (inside && !known) corners.push_back(p);
-      }
-    }
-  }
-  return corners;
 }
 
 }  // namespace
@@ -68,7 +41,7 @@ CollisionShape CollisionShape::of_mesh(TriangleMesh triangles, const Pose& T_lin
       plane.offset_m = std::max(plane.offset_m, normal.dot(vertex.cast<double>()));
     mesh->planes.push_back(plane);
   }
-  mesh->corners = corners_of(mesh->planes, half);
+  mesh->corners = corners_of(mesh->planes);
   CANOPEER_CHECK(!mesh->corners.empty(), "a bounded solid has corners");
   mesh->file = std::move(file);
   mesh->triangles = std::move(triangles);

@@ -17,6 +17,9 @@ struct LinkPairSurvey {
   bool disabled = false;  ///< the SRDF says they need no check
   int touching = 0;       ///< of the states looked at
   int states = 0;
+  /// Not disabled, and near contact in all of some states by the convex solids of fast checks: no
+  /// state of the arm is free then. Hollows of meshes are filled up in them.
+  bool solids_always_touch = false;
 
   [[nodiscard]] bool always() const { return touching == states; }
   [[nodiscard]] bool never() const { return touching == 0; }

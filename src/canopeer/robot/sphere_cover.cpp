@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "canopeer/base/check.h"
+#include "canopeer/robot/convex_corners.h"
 
 namespace canopeer {
 namespace {
@@ -11,6 +12,9 @@ namespace {
 /// No shape gets more pieces along an axis, or in all: where it is drawn a thousand times too
 /// large, say, they are larger.
 constexpr double kMaxPieces = 4096.0;
+
+/// Corners are known to about a nanometre.
+constexpr double kRounding = 1e-7;
 
 /// Thick boxes and meshes are cut in pieces no thicker: spheres around larger ones would stick out
 /// far, and would be larger than what distance fields know.
@@ -68,9 +72,27 @@ Sphere sphere_around(const std::vector<Vec3>& points) {
   return {centre, (farthest() - centre).norm()};
 }
 
-/// Along the longest edge slices as for a cylinder; across it pieces no longer than wide. Each
-/// piece is filled with points of a fine grid, and a sphere around those, widened by half a cell's
-/// diagonal, holds it.
+/// The part of a mesh's solid in a box, by its corners; empty: none.
+std::vector<Vec3> corners_within(const CollisionShape& shape, const Vec3& centre,
+                                 const Vec3& half) {
+  std::vector<ShapeMesh::Plane> planes;
+  for (const auto& plane : shape.mesh->planes) {
+    const double reach = plane.normal.cwiseAbs().dot(half);
+    const double spare = plane.offset_m - plane.normal.dot(centre);
+    if (spare < -reach - 1e-9) return {};
+    if (spare < reach) planes.push_back(plane);  // it cuts through the box
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {-1.0, 1.0}) {
+      const Vec3 normal = sign * Vec3::Unit(axis);
+      planes.push_back({normal, normal.dot(centre) + half[axis]});
+    }
+  }
+  return corners_of(planes);
+}
+
+/// Along the longest edge slices as for a cylinder; across it pieces no longer than wide. A sphere
+/// around the corners of the solid's part in each.
 std::vector<Sphere> cover_mesh(const CollisionShape& shape, double max_excess) {
   const Vec3 edges = shape.size_m;
   double thin = thickness(edges, kThickestMeshM, max_excess);
@@ -89,32 +111,19 @@ std::vector<Sphere> cover_mesh(const CollisionShape& shape, double max_excess) {
   pieces[longest] =
       static_cast<int>(std::clamp(std::ceil(edges[longest] / (2.0 * stretch)), 1.0, kMaxPieces));
 
-  const double step = std::max({0.4 * max_excess, 1e-4, edges.maxCoeff() / 200.0});
-  const double half_diagonal = step * std::sqrt(3.0) / 2.0;
-  const Vec3 widths = edges.cwiseMax(1e-9);  // of flat meshes too
-  std::vector<std::vector<Vec3>> points(static_cast<std::size_t>(pieces.prod()));
-  const Eigen::Vector3i count = (edges / step).array().ceil().cast<int>().max(1) + 1;
-  for (int x = 0; x < count.x(); ++x) {
-    for (int y = 0; y < count.y(); ++y) {
-      for (int z = 0; z < count.z(); ++z) {
-        const Vec3 p = (Vec3(x, y, z) - (count.cast<double>() - Vec3::Ones()) / 2.0) * step;
-        if (signed_distance(shape, p) > half_diagonal) continue;
-        const Eigen::Vector3i at =
-            ((p.cwiseQuotient(widths).array() + 0.5) * pieces.cast<double>().array())
-                .floor()
-                .max(0.0)
-                .min(pieces.cast<double>().array() - 1.0)
-                .cast<int>();
-        points[static_cast<std::size_t>((at.x() * pieces.y() + at.y()) * pieces.z() + at.z())]
-            .push_back(p);
+  const Vec3 piece = edges.cwiseQuotient(pieces.cast<double>());
+  std::vector<Sphere> spheres;
+  for (int x = 0; x < pieces.x(); ++x) {
+    for (int y = 0; y < pieces.y(); ++y) {
+      for (int z = 0; z < pieces.z(); ++z) {
+        const Vec3 centre =
+            (Vec3(x, y, z).array() + 0.5).matrix().cwiseProduct(piece) - edges / 2.0;
+        const std::vector<Vec3> corners = corners_within(shape, centre, piece / 2.0);
+        if (corners.empty()) continue;
+        spheres.push_back(sphere_around(corners));
+        spheres.back().radius_m += kRounding;
       }
     }
-  }
-  std::vector<Sphere> spheres;
-  for (const std::vector<Vec3>& piece : points) {
-    if (piece.empty()) continue;
-    spheres.push_back(sphere_around(piece));
-    spheres.back().radius_m += half_diagonal;
   }
   return spheres;
 }

@@ -9,6 +9,7 @@ namespace canopeer {
 namespace {
 
 using test::has;
+using test::notices_of;
 
 TriangleMesh floor_at(double z) {
   return make_box(Box(Vec3(-2.0, -2.0, z - 0.1), Vec3(2.0, 2.0, z)));

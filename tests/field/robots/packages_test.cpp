@@ -9,6 +9,7 @@ namespace {
 
 using test::corner_obj;
 using test::has;
+using test::notices_of;
 using test::mesh;
 using test::one_link;
 

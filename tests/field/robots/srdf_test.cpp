@@ -9,6 +9,7 @@ namespace canopeer {
 namespace {
 
 using test::has;
+using test::notices_of;
 
 bool checked(const RobotModel& robot, const std::string& a, const std::string& b) {
   return robot.pair_checked(robot.link_index(a), robot.link_index(b));
