@@ -55,11 +55,11 @@ std::vector<Configuration> random_configurations(const RobotModel& robot, int co
 void fk(benchmark::State& state) {
   const RobotModel& robot = ur5e().robot;
   const auto qs = random_configurations(robot, 1024);
-  Pose poses[kMaxMovingLinks];
+  std::vector<Pose> poses(robot.moving_links().size());
   std::size_t i = 0;
   for (auto _ : state) {
-    robot.moving_link_poses(qs[i++ & 1023], Pose::Identity(), poses);
-    benchmark::DoNotOptimize(poses[robot.dof()].matrix().data());
+    robot.moving_link_poses(qs[i++ & 1023], Pose::Identity(), poses.data());
+    benchmark::DoNotOptimize(poses.back().matrix().data());
     benchmark::ClobberMemory();
   }
 }

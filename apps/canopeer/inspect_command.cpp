@@ -2,12 +2,12 @@
 #include <cstdio>
 
 #include "canopeer/base/atomic_file.h"
-#include "canopeer/config/robot_file.h"
 #include "canopeer/render/occlusion.h"
 #include "canopeer/scene/scene_hash.h"
 #include "commands.h"
 #include "exit_status.h"
 #include "occlusion_report.h"
+#include "robot_source.h"
 #include "scene_source.h"
 #include "world_builder.h"
 
@@ -101,7 +101,7 @@ struct MissionView {
 };
 
 MissionView mission_view(const Scene& scene, const OcclusionProbe& probe, const MissionFile& file) {
-  const RobotModel robot = value_or_stop(load_robot(file.robot, file.T_frame_camera), kBadInput);
+  const RobotModel robot = robot_of(file);
   const MissionBoxes boxes(file, robot);
   MissionView view{OcclusionReport(visibilities(
                        scene, probe, kFruitsLookedAt,

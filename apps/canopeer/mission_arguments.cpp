@@ -2,6 +2,7 @@
 
 #include "exit_status.h"
 #include "fuel_caches.h"
+#include "robot_source.h"
 #include "shipped_data.h"
 
 namespace canopeer::app {
@@ -22,6 +23,7 @@ StageRequest stage_request(const MissionArguments& arguments, const Overrides& e
   if (!own_data().empty()) request.table_dirs.push_back(own_data() / "compute_tables");
   request.table_dirs.push_back(shipped_data() / "compute_tables");
   request.fuel_caches = fuel_caches();
+  request.package_path = ros_package_path();
   return request;
 }
 

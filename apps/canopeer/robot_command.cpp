@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <map>
+#include <optional>
 
 #include "canopeer/base/atomic_file.h"
 #include "canopeer/config/robot_file.h"
@@ -11,6 +14,7 @@
 #include "commands.h"
 #include "exit_status.h"
 #include "robot_picture.h"
+#include "robot_source.h"
 
 namespace canopeer::app {
 namespace {
@@ -50,6 +54,24 @@ void print_joints(const RobotModel& robot, const ArmIk& ik) {
   }
 }
 
+/// What stands for the links in collision checks.
+void print_shapes(const RobotModel& robot) {
+  std::map<ShapeKind, int> counts;
+  std::size_t shapes = 0;
+  std::size_t triangles = 0;
+  for (const Link& link : robot.links()) {
+    for (const CollisionShape& shape : link.collision) {
+      ++shapes;
+      ++counts[shape.kind];
+      if (shape.mesh != nullptr) triangles += shape.mesh->triangles.triangles.size();
+    }
+  }
+  std::printf(
+      "collision shapes: %zu (%d boxes, %d cylinders, %d spheres, %d meshes), %zu triangles\n",
+      shapes, counts[ShapeKind::kBox], counts[ShapeKind::kCylinder], counts[ShapeKind::kSphere],
+      counts[ShapeKind::kMesh], triangles);
+}
+
 /// Whether the camera's axis meets the sampling region of the side the home state is for: the first
 /// frame of a segment is taken there.
 void check_first_look(const RobotModel& robot, Findings& findings) {
@@ -71,8 +93,16 @@ void check_first_look(const RobotModel& robot, Findings& findings) {
   }
 }
 
+bool has_arm_shapes(const RobotModel& robot) {
+  const auto& moving = robot.moving_links();
+  return std::any_of(moving.begin(), moving.end(), [&](int link) {
+    return !robot.links()[static_cast<std::size_t>(link)].collision.empty();
+  });
+}
+
 void check_homes(const RobotModel& robot, Findings& findings) {
   std::printf("home states\n");
+  const char* const free = has_arm_shapes(robot) ? "free" : "nothing to check";
   const ExactChecker exact(robot);
   for (int side = 1; side <= robot.sides(); ++side) {
     const std::string name = "side_" + std::to_string(side);
@@ -92,7 +122,7 @@ void check_homes(const RobotModel& robot, Findings& findings) {
         findings.wrong("home state '" + name + "'" + where +
                        " is free, but nearer to contact than the planner allows");
       } else {
-        std::printf("  %s%s: free\n", name.c_str(), where);
+        std::printf("  %s%s: %s\n", name.c_str(), where, free);
       }
     }
   }
@@ -123,7 +153,25 @@ void check_known_free(const RobotModel& robot, Findings& findings) {
   }
 }
 
-void check_reach(const RobotModel& robot, const ArmIk& ik, int views, Findings& findings) {
+/// The robot as it would be with suggested.srdf.
+std::optional<RobotModel> with_suggested_pairs(const RobotModel& robot,
+                                               const std::vector<LinkPairSurvey>& pairs) {
+  RobotDescription description = robot.description();
+  bool more = false;
+  for (const LinkPairSurvey& pair : pairs) {
+    if (pair.disabled || pair.reason_to_disable() == nullptr) continue;
+    description.disabled_pairs.emplace_back(pair.link_a, pair.link_b);
+    more = true;
+  }
+  if (!more) return std::nullopt;
+  auto model = RobotModel::make(std::move(description), robot.setup());
+  if (!model) return std::nullopt;
+  return std::move(*model);
+}
+
+void check_reach(const RobotModel& robot, const ArmIk& ik, int views,
+                 const std::vector<LinkPairSurvey>& pairs, Findings& findings) {
+  const std::optional<RobotModel> suggested = with_suggested_pairs(robot, pairs);
   std::printf("reach (%d random views a side, target in the sampling region 0.3-0.6 m away)\n",
               views);
   if (robot.sides() == 0) findings.wrong("no sides: a mission needs workspace and sampling region");
@@ -134,8 +182,19 @@ void check_reach(const RobotModel& robot, const ArmIk& ik, int views, Findings& 
                      ": no place in the workspace is 0.3-0.6 m from the sampling region");
       continue;
     }
-    std::printf("  side %d: %.1f %% reached, %.1f %% without touching itself or the trolley\n",
-                side, 100.0 * survey.reached / survey.views, 100.0 * survey.free / survey.views);
+    std::printf("  side %d: %.1f %% reached, %.1f %% without touching itself or the trolley%s\n",
+                side, 100.0 * survey.reached / survey.views, 100.0 * survey.free / survey.views,
+                has_arm_shapes(robot) ? "" : ", which is not checked");
+    const ReachSurvey then =
+        suggested ? survey_reach(*suggested, ik, side, views, kSeed) : ReachSurvey();
+    if (then.free > survey.free)
+      std::printf("    with suggested.srdf: %.1f %% without touching\n",
+                  100.0 * then.free / then.views);
+    if (survey.free == 0 && then.free > 0) {
+      findings.wrong("side " + std::to_string(side) +
+                     ": no view of it can be taken without an SRDF such as suggested.srdf");
+      continue;
+    }
     if (survey.free == 0) {
       findings.wrong("side " + std::to_string(side) +
                      ": no view of it can be taken; its boxes are given in '" +
@@ -159,28 +218,45 @@ void check_reach(const RobotModel& robot, const ArmIk& ik, int views, Findings& 
   }
 }
 
+std::string percent(int part, int whole) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f %%", 100.0 * part / std::max(1, whole));
+  return text;
+}
+
 std::vector<LinkPairSurvey> check_pairs(const RobotModel& robot, int states, Findings& findings) {
   constexpr double kOften = 0.3;
+  constexpr int kNeverShown = 20;
   const auto pairs = survey_link_pairs(robot, states, kSeed);
   int checked = 0;
   for (const LinkPairSurvey& pair : pairs) checked += pair.disabled ? 0 : 1;
   std::printf("link pairs (%d random states): %zu, of which %d are checked\n", states, pairs.size(),
               checked);
+  if (robot.description().neighbours_may_touch)
+    std::printf("  no srdf: pairs that a joint connects are left out\n");
+  int never = 0;
   for (const LinkPairSurvey& pair : pairs) {
     const std::string names = pair.link_a + " / " + pair.link_b;
     if (!pair.disabled && pair.adjacent && !pair.never())
       findings.wrong(names + " are joined by a joint and touch: disable the pair in the SRDF");
     else if (!pair.disabled && pair.always())
       findings.wrong(names + " always touch: disable the pair in the SRDF, or mend a shape");
+    else if (pair.solids_always_touch)
+      findings.wrong(names + " are never called free, though they touch in " +
+                     percent(pair.touching, pair.states) +
+                     " of the states: hollows of meshes are filled up in fast checks; split the "
+                     "mesh into convex parts, or disable the pair in the SRDF");
     else if (!pair.disabled && pair.touching > kOften * pair.states)
       std::printf("  touch in %.1f %% of the states, are their shapes too large? %s\n",
                   100.0 * pair.touching / pair.states, names.c_str());
-    else if (!pair.disabled && pair.never())
+    else if (!pair.disabled && pair.never() && ++never <= kNeverShown)
       std::printf("  never touch, could be disabled: %s\n", names.c_str());
     else if (pair.disabled && !pair.adjacent && !pair.never() && !pair.always())
       std::printf("  disabled, though they touch in %.1f %% of the states: %s\n",
                   100.0 * pair.touching / pair.states, names.c_str());
   }
+  if (never > kNeverShown)
+    std::printf("  never touch, could be disabled: %d more pairs\n", never - kNeverShown);
   return pairs;
 }
 
@@ -197,20 +273,25 @@ void print_covers(const RobotModel& robot) {
 /// Reads a robot, says what it is, what is wrong with it and where, and writes pictures and an
 /// SRDF.
 void robot_check(const RobotCheckArguments& arguments) {
-  const RobotModel robot = value_or_stop(load_robot(arguments.robot), kBadInput);
+  const RobotModel robot =
+      value_or_stop(load_robot(arguments.robot, {}, ros_package_path()), kBadInput);
   const ArmIk ik = value_or_stop(ArmIk::make(robot), kBadInput);
   Findings findings;
   print_joints(robot, ik);
+  print_shapes(robot);
+  if (!has_arm_shapes(robot))
+    findings.wrong("nothing of the arm can be checked for contact: no link of it has a shape");
+  const int before_pairs = findings.count();
   // First, because pairs that always touch spoil all that follows.
   const auto pairs = check_pairs(robot, arguments.states, findings);
-  if (findings.count() > 0)
+  if (findings.count() > before_pairs)
     std::printf(
         "  suggested.srdf disables what always or never touches: put it beside the robot "
         "file and name it there as srdf\n");
   check_homes(robot, findings);
   check_first_look(robot, findings);
   check_known_free(robot, findings);
-  check_reach(robot, ik, arguments.views, findings);
+  check_reach(robot, ik, arguments.views, pairs, findings);
   print_covers(robot);
 
   const fs::path out = arguments.out.empty() ? fs::path("out") / "robot" : fs::path(arguments.out);

@@ -3,7 +3,6 @@
 #include <filesystem>
 
 #include "canopeer/base/atomic_file.h"
-#include "canopeer/config/robot_file.h"
 #include "canopeer/import/scene_glb.h"
 #include "canopeer/render/overview.h"
 #include "canopeer/render/renderer.h"
@@ -13,6 +12,7 @@
 #include "canopeer/sensing/png.h"
 #include "commands.h"
 #include "exit_status.h"
+#include "robot_source.h"
 #include "scene_source.h"
 #include "world_builder.h"
 
@@ -68,7 +68,7 @@ void write_truth(const fs::path& out, const Scene& scene) {
 
 /// What the mission's camera sees at home in each segment, with its faults; labels without.
 void render_segments(const MissionFile& file, const Scene& scene, const fs::path& out) {
-  const RobotModel robot = value_or_stop(load_robot(file.robot, file.T_frame_camera), kBadInput);
+  const RobotModel robot = robot_of(file);
   const Renderer renderer(scene);
   RgbdSensorOptions options = file.simulation.sensor;
   options.intrinsics = file.simulation.camera;

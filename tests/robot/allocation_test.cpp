@@ -60,11 +60,11 @@ TEST_F(Allocation, TheCounterCounts) {
 }
 
 TEST_F(Allocation, ForwardKinematicsTakesNone) {
-  Pose poses[kMaxMovingLinks];
+  std::vector<Pose> poses(robot_.moving_links().size());
   double sum = 0.0;
   EXPECT_EQ(allocations_of([&] {
               for (const Configuration& q : qs_) {
-                robot_.moving_link_poses(q, Pose::Identity(), poses);
+                robot_.moving_link_poses(q, Pose::Identity(), poses.data());
                 sum += poses[0](0, 3) + robot_.T_base_camera(q)(0, 3);
               }
             }),

@@ -1,11 +1,14 @@
 #include "canopeer/config/robot_file.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <numbers>
 
+#include "canopeer/config/shapeless_links.h"
 #include "canopeer/config/srdf.h"
 #include "canopeer/config/urdf.h"
 #include "canopeer/config/yaml_reader.h"
+#include "canopeer/robot/arm_reach.h"
 
 namespace canopeer {
 
@@ -48,6 +51,7 @@ struct RobotFile {
   std::filesystem::path urdf;
   std::filesystem::path srdf;  // empty: none
   std::vector<std::filesystem::path> package_path;
+  bool visual_for_collision = false;
   RobotSetup setup;
   std::vector<double> arm_acceleration_limits;
   double trolley_acceleration_limit = 0.0;
@@ -66,6 +70,8 @@ Expected<RobotFile> read_keys(const std::filesystem::path& path) {
   if (yaml.has("srdf")) file.srdf = yaml.directory() / yaml.text("srdf", "");
   for (const std::string& folder : yaml.text_or_texts("package_path", {}))
     file.package_path.push_back(yaml.directory() / folder);
+  file.visual_for_collision =
+      yaml.choice("collision", "collision", {"collision", "visual"}) == "visual";
   setup.base_link = yaml.required_text("base_link");
   setup.camera_frame = yaml.required_text("camera_frame");
   if (!yaml.has("arm_joints")) (void)yaml.required_text("arm_joints");
@@ -139,6 +145,20 @@ void mount_camera(const Pose& T_frame_camera, RobotDescription& robot, RobotSetu
   setup.camera_frame = mounted;
 }
 
+/// The map's distances are kept as far as the arm reaches: memory grows with the cube of that.
+Expected<void> check_reach(const RobotModel& robot) {
+  constexpr double kFarthest = 10.0;  // m
+  const double reach = arm_reach_m(robot);
+  if (reach <= kFarthest) return {};
+  char text[192];
+  std::snprintf(
+      text, sizeof text,
+      "the arm reaches up to %.4g m from '%s'; expected at most %.0f m: are its joints or "
+      "meshes given in millimetres?",
+      reach, robot.setup().base_link.c_str(), kFarthest);
+  return fail(text);
+}
+
 bool has_link(const RobotDescription& robot, const std::string& name) {
   return std::any_of(robot.links.begin(), robot.links.end(),
                      [&](const Link& link) { return link.name == name; });
@@ -147,14 +167,21 @@ bool has_link(const RobotDescription& robot, const std::string& name) {
 }  // namespace
 
 Expected<RobotModel> load_robot(const std::filesystem::path& path,
-                                const std::optional<Pose>& T_frame_camera) {
+                                const std::optional<Pose>& T_frame_camera,
+                                const std::vector<std::filesystem::path>& package_path) {
   auto file = read_keys(path);
   if (!file) return fail(file.error().message);
-  auto robot = read_urdf(file->urdf, file->package_path);
+  file->package_path.insert(file->package_path.end(), package_path.begin(), package_path.end());
+  auto robot = read_urdf(file->urdf, file->package_path, file->visual_for_collision);
   if (!robot) return fail(robot.error().message);
-  if (!file->srdf.empty()) {
-    if (auto read = read_srdf(file->srdf, *robot); !read) return fail(read.error().message);
+  if (file->srdf.empty()) {
+    robot->neighbours_may_touch = true;
+  } else if (auto read = read_srdf(file->srdf, *robot); !read) {
+    return fail(read.error().message);
   }
+  if (const std::string unchecked = links_without_shapes(*robot, file->setup.arm_joints);
+      !unchecked.empty())
+    robot->notices.push_back(unchecked);
   set_acceleration_limits(*file, *robot);
   set_travel_limits(*file, *robot);
   const auto mounting = T_frame_camera ? T_frame_camera : file->T_frame_camera;
@@ -163,6 +190,7 @@ Expected<RobotModel> load_robot(const std::filesystem::path& path,
   }
   auto model = RobotModel::make(std::move(*robot), file->setup);
   if (!model) return fail_in(path.string(), model.error());
+  if (auto reach = check_reach(*model); !reach) return fail_in(path.string(), reach.error());
   return model;
 }
 

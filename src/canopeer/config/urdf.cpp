@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "canopeer/base/atomic_file.h"
+#include "canopeer/config/urdf_shapes.h"
 #include "canopeer/config/xml_lines.h"
 
 namespace canopeer {
@@ -71,52 +72,54 @@ Pose to_pose(const urdf::Pose& pose) {
   return T;
 }
 
-Expected<CollisionShape> to_shape(const urdf::GeometrySharedPtr& geometry, const urdf::Pose& origin,
-                                  const MeshSearch& search) {
-  const Pose T = to_pose(origin);
-  if (geometry == nullptr) return fail("a shape without geometry");
-  Expected<CollisionShape> shape = fail("unknown geometry");
-  switch (geometry->type) {
-    case urdf::Geometry::BOX: {
-      const auto& box = dynamic_cast<const urdf::Box&>(*geometry);
-      shape = CollisionShape::box({box.dim.x, box.dim.y, box.dim.z}, T);
-      break;
-    }
-    case urdf::Geometry::CYLINDER: {
-      const auto& cylinder = dynamic_cast<const urdf::Cylinder&>(*geometry);
-      shape = CollisionShape::cylinder(cylinder.radius, cylinder.length, T);
-      break;
-    }
-    case urdf::Geometry::SPHERE:
-      shape = CollisionShape::sphere(dynamic_cast<const urdf::Sphere&>(*geometry).radius, T);
-      break;
-    case urdf::Geometry::MESH: {
-      const auto& mesh = dynamic_cast<const urdf::Mesh&>(*geometry);
-      return load_mesh_shape(mesh.filename, {mesh.scale.x, mesh.scale.y, mesh.scale.z}, T, search);
-    }
+/// The document without what is read elsewhere or not used at all: one odd material, inertia or
+/// shape would make urdfdom refuse the whole robot.
+std::string skeleton_of(const tinyxml2::XMLDocument& document) {
+  tinyxml2::XMLDocument copy;
+  document.DeepCopy(&copy);
+  const auto strip = [](tinyxml2::XMLElement* from, const char* tag) {
+    while (auto* child = from->FirstChildElement(tag)) from->DeleteChild(child);
+  };
+  auto* const root = copy.RootElement();
+  strip(root, "material");
+  for (auto* link = root->FirstChildElement("link"); link != nullptr;
+       link = link->NextSiblingElement("link")) {
+    for (const char* tag : {"collision", "visual", "inertial"}) strip(link, tag);
   }
-  if (shape && !(shape->size_m.minCoeff() > 0.0)) return fail("a shape without size");
-  return shape;
+  tinyxml2::XMLPrinter printer;
+  copy.Print(&printer);
+  return printer.CStr();
 }
 
-Expected<Link> to_link(const urdf::Link& from, const MeshSearch& search,
-                       std::vector<std::string>& notices) {
-  Link link;
-  link.name = from.name;
-  for (const auto& collision : from.collision_array) {
-    auto shape = to_shape(collision->geometry, collision->origin, search);
-    if (!shape) return fail(shape.error().message);
-    link.collision.push_back(std::move(*shape));
-  }
-  for (const auto& visual : from.visual_array) {
-    auto shape = to_shape(visual->geometry, visual->origin, search);
-    if (shape) {
-      link.visual.push_back(std::move(*shape));
-    } else {
-      notices.push_back("link '" + link.name + "', visual: " + shape.error().message);
+/// In the order of their names.
+Expected<void> read_links(const urdf::ModelInterface& model, const tinyxml2::XMLDocument& document,
+                          const std::string& name, const UrdfOptions& options,
+                          RobotDescription& robot) {
+  RobotMeshReader meshes(options.meshes);
+  UrdfShapes collision(name, meshes);
+  UrdfShapes visual(name, meshes);
+  for (const auto& [link_name, from] : model.links_) {
+    Link link;
+    link.name = link_name;
+    const auto* element = find_named(document, "link", link_name);
+    if (element != nullptr) {
+      link.collision = collision.read(*element, "collision");
+      if (options.visual_for_collision && element->FirstChildElement("collision") == nullptr)
+        link.collision = collision.read(*element, "visual");
+      link.visual = visual.read(*element, "visual");
     }
+    robot.links.push_back(std::move(link));
   }
-  return link;
+  const std::vector<std::string> wrong = collision.troubles();
+  if (!wrong.empty()) {
+    std::string all;
+    for (const std::string& line : wrong) all += (all.empty() ? "" : "; ") + line;
+    return fail(all);
+  }
+  for (const std::string& line : collision.notices()) robot.notices.push_back(line);
+  for (const std::string& line : visual.troubles())
+    robot.notices.push_back(line + " (visual: for pictures only)");
+  return {};
 }
 
 Expected<Joint> to_joint(const urdf::Joint& from) {
@@ -155,13 +158,13 @@ Expected<Joint> to_joint(const urdf::Joint& from) {
 }  // namespace
 
 Expected<RobotDescription> parse_urdf(const std::string& xml, const std::string& name,
-                                      const MeshSearch& search) {
+                                      const UrdfOptions& options) {
   tinyxml2::XMLDocument document;
   if (auto parsed = parse_xml(xml, name, "robot", document); !parsed)
     return fail(parsed.error().message);
 
   Captured captured;
-  const auto model = parse_quietly(xml, captured);
+  const auto model = parse_quietly(skeleton_of(document), captured);
   if (model == nullptr) {
     const auto& messages = captured.messages();
     return fail(place_of(messages, name, document) +
@@ -172,13 +175,8 @@ Expected<RobotDescription> parse_urdf(const std::string& xml, const std::string&
   for (const std::string& message : captured.messages()) {  // it read on, without that
     robot.notices.push_back(place_of({message}, name, document) + ": " + message);
   }
-  for (const auto& [link_name, from] : model->links_) {
-    auto link = to_link(*from, search, robot.notices);
-    if (!link)
-      return fail(xml_place(name, find_named(document, "link", link_name)) + ": link '" +
-                  link_name + "': " + link.error().message);
-    robot.links.push_back(std::move(*link));
-  }
+  if (auto links = read_links(*model, document, name, options, robot); !links)
+    return fail(links.error().message);
   for (const auto& [joint_name, from] : model->joints_) {
     auto joint = to_joint(*from);
     if (!joint)
@@ -190,10 +188,12 @@ Expected<RobotDescription> parse_urdf(const std::string& xml, const std::string&
 }
 
 Expected<RobotDescription> read_urdf(const std::filesystem::path& path,
-                                     const std::vector<std::filesystem::path>& package_path) {
+                                     const std::vector<std::filesystem::path>& package_path,
+                                     bool visual_for_collision) {
   auto xml = read_file(path);
   if (!xml) return fail(xml.error().message);
-  return parse_urdf(*xml, path.string(), {path.parent_path(), package_path});
+  return parse_urdf(*xml, path.string(),
+                    {{path.parent_path(), package_path}, visual_for_collision});
 }
 
 }  // namespace canopeer

@@ -10,16 +10,24 @@
 
 namespace canopeer {
 
+/// How shapes are read.
+struct UrdfOptions {
+  MeshSearch meshes;
+  /// Links without a <collision> take their visual shapes for it; those must be readable then.
+  bool visual_for_collision = false;
+};
+
 /// Reads a robot's links, joints, collision and visual shapes from a URDF file; meshes are looked
 /// for as config/robot_mesh.h says. A continuous joint has no limits here. Acceleration limits and
-/// disabled pairs are not in a URDF. Errors (malformed XML, xacro that needs expanding, a collision
-/// mesh that cannot be read, mimic joints, no single tree) name file and line; a visual mesh that
-/// cannot be read becomes a notice.
+/// disabled pairs are not in a URDF. Errors (malformed XML, xacro that needs expanding, collision
+/// meshes that cannot be read, all in one line, mimic joints, no single tree) name file and line;
+/// visual meshes that cannot be read become notices.
 [[nodiscard]] Expected<RobotDescription> read_urdf(
-    const std::filesystem::path& path, const std::vector<std::filesystem::path>& package_path = {});
+    const std::filesystem::path& path, const std::vector<std::filesystem::path>& package_path = {},
+    bool visual_for_collision = false);
 
 /// The same from text; `name` stands for the file in messages.
 [[nodiscard]] Expected<RobotDescription> parse_urdf(const std::string& xml, const std::string& name,
-                                                    const MeshSearch& search = {});
+                                                    const UrdfOptions& options = {});
 
 }  // namespace canopeer

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "canopeer/base/check.h"
-#include "canopeer/mission/segment/arm_reach.h"
 #include "canopeer/mission/segment/segment_runner.h"
+#include "canopeer/robot/arm_reach.h"
 
 namespace canopeer {
 namespace {

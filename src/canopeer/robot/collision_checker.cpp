@@ -5,6 +5,7 @@
 
 #include "canopeer/base/check.h"
 #include "canopeer/map/distance_field.h"
+#include "canopeer/robot/collision/convex_gap.h"
 
 namespace canopeer {
 namespace {
@@ -42,11 +43,11 @@ struct ArcCurve {
 
 }  // namespace
 
-/// Where everything is in one configuration, world frame. On the stack: checks allocate nothing.
+/// Where everything is in one configuration, world frame.
 struct CollisionChecker::State {
-  Pose T_world_link[kMaxMovingLinks];
-  Vec3 centres[kMaxSpheres];
-  Vec3 bounds[kMaxArmLinks];  // centres of the arm links' bounding spheres
+  Pose T_world_body[kMaxArmJoints];
+  const Vec3* centres = nullptr;  // of the spheres
+  const Vec3* bounds = nullptr;   // centres of the arm links' bounding spheres
 };
 
 CollisionChecker::CollisionChecker(const RobotModel& robot, const TrolleyState& trolley,
@@ -58,73 +59,80 @@ CollisionChecker::CollisionChecker(const RobotModel& robot, const TrolleyState& 
   padding_.self.fill(options.self_padding_m);
   padding_.refine_below_m = kRefineBelowM;
   padding_.refine_map_below_m = options.map_padding_m;
-  std::vector<Pose> T_world_link;
-  robot.link_poses(Configuration::Zero(robot.dof()), trolley, T_world_link);
-  T_world_root_ = T_world_link[static_cast<std::size_t>(robot.moving_root())];
+  T_world_base_ = robot.T_world_base(trolley);
   double excess_m = options.sphere_excess_m;
   while (!collect_arm_links(excess_m)) excess_m *= 1.5;
+  std::vector<Pose> T_world_link;
+  robot.link_poses(Configuration::Zero(robot.dof()), trolley, T_world_link);
   collect_obstacles(T_world_link);
   collect_groups();
   collect_reaches();
 }
 
-/// False: too many spheres.
+/// False: too many spheres, and coarser ones would be fewer.
 bool CollisionChecker::collect_arm_links(double sphere_excess_m) {
   arm_links_.clear();
   centres_.clear();
   radii_m_.clear();
+  arm_shapes_.clear();
   sphere_shapes_.clear();
   max_radius_m_ = 0.0;
-  const std::vector<int>& moving = robot_->moving_links();
-  for (std::size_t m = 0; m < moving.size(); ++m) {
-    const Link& link = robot_->links()[moving[m]];
+  for (const int index : robot_->moving_links()) {
+    const Link& link = robot_->links()[index];
     if (link.collision.empty()) continue;
+    ArmLink arm_link;
+    arm_link.link = index;
+    arm_link.body = robot_->arm_joints_before(index) - 1;
+    arm_link.first_sphere = static_cast<int>(centres_.size());
+    const Pose T_body_link = robot_->T_body_link(index);
     std::vector<Sphere> spheres;
     for (const CollisionShape& shape : link.collision) {
       const auto cover = cover_with_spheres(shape, sphere_excess_m);
       spheres.insert(spheres.end(), cover.begin(), cover.end());
-      sphere_shapes_.insert(sphere_shapes_.end(), cover.size(), &shape);
+      sphere_shapes_.insert(sphere_shapes_.end(), cover.size(),
+                            static_cast<int>(arm_shapes_.size()));
+      arm_shapes_.push_back(shape);
+      arm_shapes_.back().T_link_shape = T_body_link * shape.T_link_shape;
     }
-    ArmLink arm_link;
-    arm_link.link = moving[m];
-    arm_link.moving = static_cast<int>(m);
-    arm_link.first_sphere = static_cast<int>(centres_.size());
-    arm_link.bound = bounding_sphere(spheres);
     for (const Sphere& sphere : spheres) {
-      centres_.push_back(sphere.centre);
+      centres_.push_back(T_body_link * sphere.centre);
       radii_m_.push_back(sphere.radius_m);
       max_radius_m_ = std::max(max_radius_m_, sphere.radius_m);
     }
-    if (centres_.size() > kMaxSpheres) return false;
+    if (centres_.size() > std::max<std::size_t>(kMaxSpheres, 2 * arm_shapes_.size())) return false;
     arm_link.last_sphere = static_cast<int>(centres_.size());
-    measure_reach(arm_link);
+    arm_link.bound = bounding_sphere(spheres);
+    measure_reach(arm_link.bound, arm_link);
+    arm_link.bound.centre = T_body_link * arm_link.bound.centre;
     arm_links_.push_back(std::move(arm_link));
   }
-  CANOPEER_CHECK(arm_links_.size() <= kMaxArmLinks, "too many links in the arm");
+  const bool one_part_a_link = arm_links_.size() <= kMaxParts;
+  parts_ = one_part_a_link ? static_cast<int>(arm_links_.size()) : robot_->dof();
+  for (std::size_t a = 0; a < arm_links_.size(); ++a)
+    arm_links_[a].part = one_part_a_link ? static_cast<int>(a) : arm_links_[a].body;
   return true;
 }
 
 // Of two arm links, the one nearer the base stands for itself by its exact shapes, the other by its
 // spheres: only the joints in between move them against each other.
 void CollisionChecker::collect_obstacles(const std::vector<Pose>& T_world_link) {
-  const std::vector<int>& moving = robot_->moving_links();
   for (std::size_t i = 0; i < robot_->links().size(); ++i) {
     const int link = static_cast<int>(i);
     Obstacle obstacle;
-    const auto place = std::find(moving.begin(), moving.end(), link);
-    if (place != moving.end()) obstacle.moving = static_cast<int>(place - moving.begin());
+    obstacle.body = robot_->arm_joints_before(link) - 1;
     for (std::size_t a = 0; a < arm_links_.size(); ++a) {
-      if (robot_->pair_checked(arm_links_[a].link, link) &&
-          robot_->arm_joints_before(arm_links_[a].link) > robot_->arm_joints_before(link))
+      if (robot_->pair_checked(arm_links_[a].link, link) && arm_links_[a].body > obstacle.body)
         obstacle.arm_links.push_back(static_cast<int>(a));
     }
     if (obstacle.arm_links.empty()) continue;
     for (const CollisionShape& shape : robot_->links()[i].collision) {
       obstacle.shape = shape;
       obstacle.radius_m = shape.half_extents().norm();
-      obstacle.centre = shape.T_link_shape.translation();
-      if (obstacle.moving < 0) {
-        obstacle.centre = T_world_link[i] * obstacle.centre;
+      if (obstacle.body >= 0) {
+        obstacle.shape.T_link_shape = robot_->T_body_link(link) * shape.T_link_shape;
+        obstacle.centre = obstacle.shape.T_link_shape.translation();
+      } else {
+        obstacle.centre = T_world_link[i] * shape.T_link_shape.translation();
         obstacle.T_shape_world = (T_world_link[i] * shape.T_link_shape).inverse();
       }
       obstacles_.push_back(obstacle);
@@ -134,8 +142,8 @@ void CollisionChecker::collect_obstacles(const std::vector<Pose>& T_world_link) 
 
 // No point of the link is ever farther from joint i's axis than the way along the chain: the part
 // of the first hop at right angles to the axis, then the lengths of the others.
-void CollisionChecker::measure_reach(ArmLink& arm_link) const {
-  const double own = arm_link.bound.centre.norm() + arm_link.bound.radius_m;
+void CollisionChecker::measure_reach(const Sphere& bound_link, ArmLink& arm_link) const {
+  const double own = bound_link.centre.norm() + bound_link.radius_m;
   const std::vector<RobotModel::Hop> hops = robot_->arm_hops(arm_link.link);
   const int joints = robot_->arm_joints_before(arm_link.link);
   arm_link.reach_m.assign(static_cast<std::size_t>(joints), 0.0);
@@ -156,25 +164,22 @@ void CollisionChecker::measure_reach(ArmLink& arm_link) const {
   }
 }
 
-void CollisionChecker::set_map(const DistanceField* map) {
-  CANOPEER_CHECK(map == nullptr || map->truncation_m() > max_radius_m_ + options_.map_padding_m,
-                 "the distance field is truncated below the arm's spheres");
-  map_ = map;
-}
+void CollisionChecker::set_map(const DistanceField* map) { map_ = map; }
 
 bool CollisionChecker::measure_map(const State& state, const Required& required,
                                    Clearances& clearances) const {
   if (map_ == nullptr) return true;
-  for (std::size_t a = 0; a < arm_links_.size(); ++a) {
-    const double enough = std::max(required.map[a], required.refine_map_below_m);
-    for (int i = arm_links_[a].first_sphere; i < arm_links_[a].last_sphere; ++i) {
+  for (const ArmLink& arm_link : arm_links_) {
+    const int part = arm_link.part;
+    const double enough = std::max(required.map[part], required.refine_map_below_m);
+    for (int i = arm_link.first_sphere; i < arm_link.last_sphere; ++i) {
       double clearance = static_cast<double>(map_->distance(state.centres[i])) - radii_m_[i];
       if (clearance < enough) {
-        clearance = shape_clearance(state.T_world_link[arm_links_[a].moving], state.centres[i], i,
-                                    required.map[a], enough + kShapeMarginM);
-        if (clearance < required.map[a]) return false;
+        clearance = shape_clearance(state.T_world_body[arm_link.body], state.centres[i], i,
+                                    required.map[part], enough + kShapeMarginM);
+        if (clearance < required.map[part]) return false;
       }
-      clearances[a] = std::min(clearances[a], clearance);
+      clearances[part] = std::min(clearances[part], clearance);
     }
   }
   return true;
@@ -183,10 +188,10 @@ bool CollisionChecker::measure_map(const State& state, const Required& required,
 /// How far the part of a shape in one of its spheres is from the occupied voxels, at least; no more
 /// than `margin_m`; once it is below `required_m` nobody wants to know how far. Voxels farther than
 /// that from the sphere are farther from what it holds.
-double CollisionChecker::shape_clearance(const Pose& T_world_link, const Vec3& centre, int sphere,
+double CollisionChecker::shape_clearance(const Pose& T_world_body, const Vec3& centre, int sphere,
                                          double required_m, double margin_m) const {
-  const CollisionShape& shape = *sphere_shapes_[sphere];
-  const Pose T_shape_world = (T_world_link * shape.T_link_shape).inverse();
+  const CollisionShape& shape = arm_shapes_[sphere_shapes_[sphere]];
+  const Pose T_shape_world = (T_world_body * shape.T_link_shape).inverse();
   const Vec3 reach = Vec3::Constant(radii_m_[sphere] + margin_m);
   const double voxel = map_->resolution_m();
   double clearance = margin_m;
@@ -198,26 +203,40 @@ double CollisionChecker::shape_clearance(const Pose& T_world_link, const Vec3& c
   return clearance;
 }
 
+bool CollisionChecker::has_mesh(const Obstacle& obstacle, int arm_shape) const {
+  return obstacle.shape.kind == ShapeKind::kMesh || arm_shapes_[arm_shape].kind == ShapeKind::kMesh;
+}
+
+/// Between a shape of the arm and an obstacle, at least. `T_shape_body`: the arm's body seen from
+/// the obstacle's shape.
+double CollisionChecker::mesh_gap(const Obstacle& obstacle, int arm_shape,
+                                  const Pose& T_shape_body) const {
+  const CollisionShape& own = arm_shapes_[arm_shape];
+  return convex_gap(obstacle.shape, own, T_shape_body * own.T_link_shape);
+}
+
 // Coarse to fine: sphere around the shape against sphere around the link, shape against the latter,
-// shape against the link's spheres.
+// shape against the link's spheres; where a mesh is concerned and those say no, solid against
+// solid.
 bool CollisionChecker::measure_self(const State& state, const Required& required,
                                     Clearances& clearances) const {
   for (const Obstacle& obstacle : obstacles_) {
-    const Pose* const T_world_link =
-        obstacle.moving < 0 ? nullptr : &state.T_world_link[obstacle.moving];
-    const Vec3 centre = T_world_link == nullptr ? obstacle.centre : *T_world_link * obstacle.centre;
+    const Pose* const T_world_body =
+        obstacle.body < 0 ? nullptr : &state.T_world_body[obstacle.body];
+    const Vec3 centre = T_world_body == nullptr ? obstacle.centre : *T_world_body * obstacle.centre;
     Pose T_shape_world = Pose::Identity();
     bool placed = false;
     for (const int a : obstacle.arm_links) {
       const ArmLink& arm_link = arm_links_[a];
-      const double enough = std::max(required.self[a], required.refine_below_m);
+      const int part = arm_link.part;
+      const double enough = std::max(required.self[part], required.refine_below_m);
       double clearance =
           (centre - state.bounds[a]).norm() - obstacle.radius_m - arm_link.bound.radius_m;
       if (clearance < enough) {
         if (!placed) {
-          T_shape_world = T_world_link == nullptr
+          T_shape_world = T_world_body == nullptr
                               ? obstacle.T_shape_world
-                              : (*T_world_link * obstacle.shape.T_link_shape).inverse();
+                              : (*T_world_body * obstacle.shape.T_link_shape).inverse();
           placed = true;
         }
         clearance = signed_distance(obstacle.shape, T_shape_world * state.bounds[a]) -
@@ -225,13 +244,23 @@ bool CollisionChecker::measure_self(const State& state, const Required& required
       }
       if (clearance < enough) {
         clearance = kFarM;
-        for (int i = arm_link.first_sphere; i < arm_link.last_sphere; ++i)
-          clearance = std::min(
-              clearance,
-              signed_distance(obstacle.shape, T_shape_world * state.centres[i]) - radii_m_[i]);
+        int asked = -1;  // the shape whose gap is known
+        double gap = 0.0;
+        for (int i = arm_link.first_sphere; i < arm_link.last_sphere; ++i) {
+          double own =
+              signed_distance(obstacle.shape, T_shape_world * state.centres[i]) - radii_m_[i];
+          if (own < enough && has_mesh(obstacle, sphere_shapes_[i])) {
+            if (asked != sphere_shapes_[i]) {
+              asked = sphere_shapes_[i];
+              gap = mesh_gap(obstacle, asked, T_shape_world * state.T_world_body[arm_link.body]);
+            }
+            own = std::max(own, gap);
+          }
+          clearance = std::min(clearance, own);
+        }
       }
-      if (clearance < required.self[a]) return false;
-      clearances[a] = std::min(clearances[a], clearance);
+      if (clearance < required.self[part]) return false;
+      clearances[part] = std::min(clearances[part], clearance);
     }
   }
   return true;
@@ -241,14 +270,19 @@ bool CollisionChecker::measure(const Configuration& q, const Required& required,
                                Clearances& clearances) const {
   clearances.fill(kFarM);
   State state;
-  robot_->moving_link_poses(q, T_world_root_, state.T_world_link);
+  robot_->body_poses(q, T_world_base_, state.T_world_body);
+  thread_local std::vector<Vec3> room;  // keeps its room from call to call
+  room.resize(centres_.size() + arm_links_.size());
+  Vec3* const bounds = room.data() + centres_.size();
   for (std::size_t a = 0; a < arm_links_.size(); ++a) {
     const ArmLink& arm_link = arm_links_[a];
-    const Pose& T_world_link = state.T_world_link[arm_link.moving];
-    state.bounds[a] = T_world_link * arm_link.bound.centre;
+    const Pose& T_world_body = state.T_world_body[arm_link.body];
+    bounds[a] = T_world_body * arm_link.bound.centre;
     for (int i = arm_link.first_sphere; i < arm_link.last_sphere; ++i)
-      state.centres[i] = T_world_link * centres_[i];
+      room[static_cast<std::size_t>(i)] = T_world_body * centres_[i];
   }
+  state.centres = room.data();
+  state.bounds = bounds;
   return measure_map(state, required, clearances) && measure_self(state, required, clearances);
 }
 
@@ -278,7 +312,7 @@ bool CollisionChecker::escape_free(const Configuration& start, const Configurati
   required.self.fill(kAnything);
   Clearances at_start;
   if (!measure(start, required, at_start)) return false;
-  for (std::size_t i = 0; i < arm_links_.size(); ++i) {
+  for (int i = 0; i < parts_; ++i) {
     required.map[i] = std::min(options_.map_padding_m, at_start[i] - kSmallestMotionM);
     required.self[i] = std::min(options_.self_padding_m, at_start[i] - kSmallestMotionM);
   }
@@ -305,15 +339,17 @@ bool CollisionChecker::sweep(const Curve& curve, const Configuration& speed,
   states_checked += 1;
   if (!measure(b, required, whole.at_to)) return false;
 
-  // What any point of each arm link moves at most from a to b.
+  // What any point of each part moves at most from a to b.
   Clearances motion{};
-  for (std::size_t i = 0; i < arm_links_.size(); ++i) {
-    for (std::size_t joint = 0; joint < arm_links_[i].reach_m.size(); ++joint)
-      motion[i] += speed[static_cast<int>(joint)] * arm_links_[i].reach_m[joint];
+  for (const ArmLink& arm_link : arm_links_) {
+    double moved = 0.0;
+    for (std::size_t joint = 0; joint < arm_link.reach_m.size(); ++joint)
+      moved += speed[static_cast<int>(joint)] * arm_link.reach_m[joint];
+    motion[arm_link.part] = std::max(motion[arm_link.part], moved);
   }
   const auto covered = [&](const Interval& interval) {
     const double length = interval.to - interval.from;
-    for (std::size_t i = 0; i < arm_links_.size(); ++i) {
+    for (int i = 0; i < parts_; ++i) {
       const double moved = motion[i] * length;
       if (moved > kSmallestMotionM && moved > interval.at_from[i] + interval.at_to[i]) return false;
     }

@@ -25,16 +25,18 @@ struct CollisionOptions {
 /// against the other links' exact shapes and against a distance field of the map. Where a sphere
 /// comes too near the map, the link's shape itself is held against the voxels around. What it calls
 /// free is free on the true geometry. It may reject states that miss a voxel by the padding, or
-/// another link by the padding plus the spheres' excess. Allocates nothing. Const members are safe
-/// to call from several threads.
+/// another link by the padding plus the spheres' excess; of meshes it asks the convex solids first.
+/// Any number of links and shapes: what nothing moves against each other is placed as one body.
+/// Allocates nothing but once per thread. Const members are safe to call from several threads.
 class CollisionChecker {
  public:
   /// `robot` must outlive the checker.
   CollisionChecker(const RobotModel& robot, const TrolleyState& trolley,
                    const CollisionOptions& options = {});
 
-  /// The map to avoid; null: none. It must outlive its use here. Its truncation distance must
-  /// exceed the largest sphere and padding (max_sphere_radius_m() + map_padding_m).
+  /// The map to avoid; null: none. It must outlive its use here. Where its truncation distance does
+  /// not exceed the largest sphere and padding (max_sphere_radius_m() + map_padding_m), checks are
+  /// right and slow.
   void set_map(const DistanceField* map);
 
   /// No collision with the robot itself, the trolley or the map, and within the joint limits.
@@ -61,26 +63,31 @@ class CollisionChecker {
   [[nodiscard]] int sphere_count() const { return static_cast<int>(radii_m_.size()); }
 
  private:
-  static constexpr int kMaxArmLinks = 24;
-  static constexpr int kMaxSpheres = 512;  // more: the spheres are made coarser
+  /// Clearances are kept for so many parts of the arm: each link, or where there are more, each
+  /// body.
+  static constexpr int kMaxParts = 24;
+  static_assert(kMaxParts >= kMaxArmJoints);
+  /// With more of them they are made coarser, down to two a shape.
+  static constexpr int kMaxSpheres = 512;
   /// The voxels near a link's shape are looked at this far beyond the clearance asked for. So its
   /// clearance is known a little beyond that too.
   static constexpr double kShapeMarginM = 0.01;
-  /// Per arm link: how far it is from whatever it must not touch, at least; metres.
-  using Clearances = std::array<double, kMaxArmLinks>;
+  /// Per part: how far it is from whatever it must not touch, at least; metres.
+  using Clearances = std::array<double, kMaxParts>;
   struct ArmLink {
     int link = 0;
-    int moving = 0;               // its place in RobotModel::moving_links()
+    int body = 0;                 // of RobotModel::body_poses(), which it is fixed to
+    int part = 0;                 // whose clearance its own counts for
     int first_sphere = 0;         // in centres_ and radii_m_
     int last_sphere = 0;          // one past
-    Sphere bound;                 // around all of them
+    Sphere bound;                 // around all of them, body frame
     std::vector<double> reach_m;  // per arm joint that moves it: no point is farther from its axis
   };
-  struct Obstacle {   // a shape of the robot, trolley included, that arm links can run into
-    int moving = -1;  // its link's place in RobotModel::moving_links(); −1: it rests
-    CollisionShape shape;
+  struct Obstacle {        // a shape of the robot, trolley included, that arm links can run into
+    int body = -1;         // that its link is fixed to; −1: it rests
+    CollisionShape shape;  // placed in its body, or in its link if it rests
     Vec3 centre =
-        Vec3::Zero();  // of a sphere around the shape: in its link, or in world if it rests
+        Vec3::Zero();  // of a sphere around the shape: in its body, or in world if it rests
     double radius_m = 0.0;
     Pose T_shape_world = Pose::Identity();  // of one that rests
     std::vector<int> arm_links;             // indices of those that must not touch it
@@ -101,18 +108,22 @@ class CollisionChecker {
 
   bool collect_arm_links(double sphere_excess_m);
   void collect_obstacles(const std::vector<Pose>& T_world_link);
-  void measure_reach(ArmLink& arm_link) const;
+  void measure_reach(const Sphere& bound_link, ArmLink& arm_link) const;
   void collect_groups();
   void collect_reaches();
   bool state_free_wide(const Configuration& q) const;
   bool state_free_narrow(const Configuration& q) const;
   bool look_at_state(const Configuration& q) const;
-  bool group_free(const Pose& T_world_link, const SphereGroup& group) const;
-  bool pair_free(const Obstacle& obstacle, const ArmLink& arm_link, const Pose* T_world_link) const;
+  bool look_at_block(std::size_t first_link, std::size_t count, const Pose* T_world_body,
+                     const double*& apart2) const;
+  bool group_free(const Pose& T_world_body, const SphereGroup& group) const;
+  bool has_mesh(const Obstacle& obstacle, int arm_shape) const;
+  double mesh_gap(const Obstacle& obstacle, int arm_shape, const Pose& T_shape_body) const;
+  bool pair_free(const Obstacle& obstacle, const ArmLink& arm_link, const Pose* T_world_body) const;
   bool measure(const Configuration& q, const Required& required, Clearances& clearances) const;
   bool measure_self(const State& state, const Required& required, Clearances& clearances) const;
   bool measure_map(const State& state, const Required& required, Clearances& clearances) const;
-  double shape_clearance(const Pose& T_world_link, const Vec3& centre, int sphere,
+  double shape_clearance(const Pose& T_world_body, const Vec3& centre, int sphere,
                          double required_m, double margin_m) const;
   template <typename Curve>
   bool sweep(const Curve& curve, const Configuration& speed, const Required& required,
@@ -122,15 +133,17 @@ class CollisionChecker {
   CollisionOptions options_;
   Required padding_;
   const DistanceField* map_ = nullptr;
-  Pose T_world_root_ = Pose::Identity();  // of RobotModel::moving_root()
+  Pose T_world_base_ = Pose::Identity();
   std::vector<ArmLink> arm_links_;
-  std::vector<Vec3> centres_;  // link frame
+  int parts_ = 0;
+  std::vector<Vec3> centres_;  // body frame
   std::vector<double> radii_m_;
-  std::vector<const CollisionShape*> sphere_shapes_;  // what each sphere helps to cover
+  std::vector<CollisionShape> arm_shapes_;  // placed in their bodies
+  std::vector<int> sphere_shapes_;          // which of these each sphere helps to cover
   std::vector<Obstacle> obstacles_;
   std::vector<SphereGroup> groups_;
-  // Per obstacle and arm link, the links in steps of four: the squared distance between their
-  // bounds from which on they are apart. Negative: they need not be.
+  // Per block of arm links, obstacle and arm link of the block, in steps of four: the squared
+  // distance between their bounds from which on they are apart. Negative: they need not be.
   std::vector<double> apart2_m2_;
   double max_radius_m_ = 0.0;
 };

@@ -132,7 +132,7 @@ struct ExactChecker::Impl {
 
   bool find_structure(const std::vector<Placed>& placed, std::string& pair) const {
     for (const Placed& part : placed) {
-      if (!structure.impl_->touch(part)) continue;
+      if (!in_arm(part.link) || !structure.impl_->touch(part)) continue;
       pair = name(part.link) + " / structure";
       return true;
     }
@@ -188,6 +188,19 @@ ContactReport ExactChecker::check(const Configuration& q, const TrolleyState& tr
   report.structure = note(impl_->find_structure(placed, pair));
   report.map = note(map != nullptr && impl_->find_map(placed, *map, pair));
   return report;
+}
+
+std::vector<std::string> ExactChecker::resting_contacts(const TrolleyState& trolley) const {
+  std::vector<std::string> links;
+  const Configuration anywhere =
+      (impl_->robot->limits().lower + impl_->robot->limits().upper) / 2.0;
+  for (const Placed& part : impl_->place(anywhere, trolley)) {
+    const std::string& link = impl_->name(part.link);
+    if (!impl_->in_arm(part.link) && (links.empty() || links.back() != link) &&
+        impl_->structure.impl_->touch(part))
+      links.push_back(link);
+  }
+  return links;
 }
 
 std::vector<std::pair<int, int>> ExactChecker::touching_pairs(const Configuration& q,

@@ -15,7 +15,7 @@ class VoxelMap;
 /// What an exact check found. All kinds are looked for; `pair` names the first contact.
 struct ContactReport {
   bool self = false;       ///< link against link, the trolley included
-  bool structure = false;  ///< any link against the fixed structure
+  bool structure = false;  ///< a link that moves with the arm against the fixed structure
   bool map = false;        ///< an arm link against an occupied voxel
   std::string pair;        ///< e.g. "forearm_link / lift_platform_link"; empty: no contact
 
@@ -51,6 +51,10 @@ class ExactChecker {
   /// cube; null: not asked.
   [[nodiscard]] ContactReport check(const Configuration& q, const TrolleyState& trolley,
                                     const VoxelMap* map = nullptr) const;
+
+  /// Links that no arm joint moves and that touch the structure: a base on the floor, wheels on
+  /// rails. No motion of the arm makes or ends such a contact, so check() leaves it out.
+  [[nodiscard]] std::vector<std::string> resting_contacts(const TrolleyState& trolley) const;
 
   /// All pairs of links whose shapes touch, disabled ones too, but for those that are rigidly
   /// joined; indices of RobotModel::links(), the smaller first, sorted.

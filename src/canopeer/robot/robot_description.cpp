@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "canopeer/base/check.h"
+#include "canopeer/robot/convex_corners.h"
 
 namespace canopeer {
 namespace {
@@ -40,6 +41,8 @@ CollisionShape CollisionShape::of_mesh(TriangleMesh triangles, const Pose& T_lin
       plane.offset_m = std::max(plane.offset_m, normal.dot(vertex.cast<double>()));
     mesh->planes.push_back(plane);
   }
+  mesh->corners = corners_of(mesh->planes);
+  CANOPEER_CHECK(!mesh->corners.empty(), "a bounded solid has corners");
   mesh->file = std::move(file);
   mesh->triangles = std::move(triangles);
   CollisionShape shape;

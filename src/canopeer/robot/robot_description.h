@@ -22,6 +22,7 @@ struct ShapeMesh {
   std::string file;  ///< where it was read from
   TriangleMesh triangles;
   std::vector<Plane> planes;  ///< the smallest solid around it with faces in 26 fixed directions
+  std::vector<Vec3> corners;  ///< of that solid
 };
 
 /// A solid placed in a link: convex and centred at its own origin, or a mesh with its bounding box
@@ -84,6 +85,8 @@ struct RobotDescription {
   std::vector<Joint> joints;
   /// Pairs of links that need no self-collision check: neighbours, and pairs that can never meet.
   std::vector<std::pair<std::string, std::string>> disabled_pairs;
+  /// No SRDF says which pairs those are: links that a joint connects need no check.
+  bool neighbours_may_touch = false;
   std::vector<std::string> notices;  ///< what its files lack but can be done without
 };
 

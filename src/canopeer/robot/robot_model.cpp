@@ -164,12 +164,6 @@ Expected<void> RobotModel::assign_roles() {
     node.rigid_group = node.drive == Drive::kNone ? parent.rigid_group : static_cast<int>(i);
   }
 
-  const auto moving = std::count_if(nodes_.begin(), nodes_.end(),
-                                    [](const Node& node) { return node.arm_joints_before > 0; });
-  if (moving > kMaxMovingLinks)
-    return fail(std::to_string(moving) + " links move with the arm; at most " +
-                std::to_string(kMaxMovingLinks) + " can be handled");
-
   const auto path_to = [&](int link, int stop) {
     std::vector<int> path;
     for (; link != stop && link >= 0; link = nodes_[link].parent) path.push_back(link);
@@ -223,6 +217,10 @@ Expected<void> RobotModel::check_setup() const {
 
 void RobotModel::collect_pairs() {
   const std::size_t n = links_.size();
+  group_has_shape_.assign(n, 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!links_[i].collision.empty()) group_has_shape_[nodes_[i].rigid_group] = 1;
+  }
   pair_checked_.assign(n * n, 0);
   for (std::size_t a = 0; a < n; ++a) {
     for (std::size_t b = 0; b < n; ++b) {
@@ -234,6 +232,19 @@ void RobotModel::collect_pairs() {
     const auto a = static_cast<std::size_t>(link_index(name_a));
     const auto b = static_cast<std::size_t>(link_index(name_b));
     pair_checked_[a * n + b] = pair_checked_[b * n + a] = 0;
+  }
+  if (description_.neighbours_may_touch) leave_neighbours_out();
+}
+
+void RobotModel::leave_neighbours_out() {
+  const int n = static_cast<int>(links_.size());
+  for (int a = 0; a < n; ++a) {
+    for (int b = 0; b < n; ++b) {
+      if (pair_checked(a, b) && joined_by_a_joint(a, b))
+        pair_checked_[static_cast<std::size_t>(a) * links_.size() + static_cast<std::size_t>(b)] =
+            pair_checked_[static_cast<std::size_t>(b) * links_.size() +
+                          static_cast<std::size_t>(a)] = 0;
+    }
   }
 }
 
@@ -342,12 +353,28 @@ bool RobotModel::pair_checked(int link_a, int link_b) const {
 
 bool RobotModel::joined_by_a_joint(int link_a, int link_b) const {
   // A rigid group is named after the link at its root, which the joint carries.
-  const auto parent_group = [&](int link) {
-    const int parent = nodes_[nodes_[link].rigid_group].parent;
+  const auto parent_group = [&](int group) {
+    const int parent = nodes_[group].parent;
     return parent < 0 ? -1 : nodes_[parent].rigid_group;
   };
-  return parent_group(link_a) == nodes_[link_b].rigid_group ||
-         parent_group(link_b) == nodes_[link_a].rigid_group;
+  const auto hangs_on = [&](int group, int other) {
+    do {
+      group = parent_group(group);
+    } while (group >= 0 && group != other && !group_has_shape_[group]);
+    return group == other;
+  };
+  const int a = nodes_[link_a].rigid_group;
+  const int b = nodes_[link_b].rigid_group;
+  return hangs_on(a, b) || hangs_on(b, a);
+}
+
+Pose RobotModel::T_body_link(int link) const {
+  Pose T = Pose::Identity();
+  for (; nodes_[link].drive != Drive::kArm; link = nodes_[link].parent) {
+    CANOPEER_CHECK(nodes_[link].arm_joints_before > 0, "the link does not move with the arm");
+    T = nodes_[link].T_parent_joint * T;
+  }
+  return T;
 }
 
 void RobotModel::link_poses(const Configuration& q, const TrolleyState& trolley,
@@ -363,8 +390,8 @@ void RobotModel::link_poses(const Configuration& q, const TrolleyState& trolley,
 }
 
 void RobotModel::arm_link_poses(const Configuration& q, std::vector<Pose>& T_world_link) const {
-  Pose T[kMaxMovingLinks];
-  moving_chain_.poses(q, T_world_link[moving_root_], T);
+  std::vector<Pose> T(moving_links_.size());
+  moving_chain_.poses(q, T_world_link[moving_root_], T.data());
   for (std::size_t i = 0; i < moving_links_.size(); ++i) T_world_link[moving_links_[i]] = T[i];
 }
 

@@ -13,9 +13,6 @@
 
 namespace canopeer {
 
-/// Most links that may move with an arm, frames without shape included.
-inline constexpr int kMaxMovingLinks = 48;
-
 /// Where the trolley stands and how high the arm is lifted.
 struct TrolleyState {
   double travel_m = 0.0;  ///< along the row
@@ -108,7 +105,8 @@ class RobotModel {
   [[nodiscard]] bool rigidly_joined(int link_a, int link_b) const {
     return nodes_[link_a].rigid_group == nodes_[link_b].rigid_group;
   }
-  /// Whether only one moving joint lies between the two links.
+  /// Whether only one moving joint lies between the two links, or several with nothing in between
+  /// that has a collision shape.
   [[nodiscard]] bool joined_by_a_joint(int link_a, int link_b) const;
 
   /// World poses of all links; `T_world_link` is resized to links().size().
@@ -117,7 +115,7 @@ class RobotModel {
   /// Only the links that move with the arm; the others must hold the poses of link_poses().
   void arm_link_poses(const Configuration& q, std::vector<Pose>& T_world_link) const;
 
-  /// The links that move with the arm, parents first; at most kMaxMovingLinks.
+  /// The links that move with the arm, parents first.
   [[nodiscard]] const std::vector<int>& moving_links() const { return moving_links_; }
   /// The link they all hang on.
   [[nodiscard]] int moving_root() const { return moving_root_; }
@@ -126,6 +124,15 @@ class RobotModel {
   void moving_link_poses(const Configuration& q, const Pose& T_root, Pose* T) const {
     moving_chain_.poses(q, T_root, T);
   }
+
+  /// The arm's bodies, base to tool: what each arm joint carries up to the next one, as one piece.
+  /// Their poses, those of the joints' links, given the one of the base link. Allocates nothing;
+  /// `T` has room for dof() poses.
+  void body_poses(const Configuration& q, const Pose& T_world_base, Pose* T) const {
+    camera_chain_.poses(q, T_world_base, T);
+  }
+  /// Of a link that moves with the arm: where it sits in its body, arm_joints_before(link) − 1.
+  [[nodiscard]] Pose T_body_link(int link) const;
 
   /// A named home state; the name must exist (see has_home).
   [[nodiscard]] const Configuration& home(std::string_view name) const;
@@ -154,6 +161,7 @@ class RobotModel {
   [[nodiscard]] Expected<void> check_setup() const;
   void compile_chains();
   void collect_pairs();
+  void leave_neighbours_out();
   [[nodiscard]] Pose T_parent_link(const Node& node, const TrolleyState& trolley) const;
 
   RobotDescription description_;
@@ -167,7 +175,8 @@ class RobotModel {
   std::vector<int> camera_path_;  // nodes from below the base link to the camera frame
   std::vector<int> base_path_;    // nodes from the root to the base link
   std::vector<char> pair_checked_;
-  ArmChain moving_chain_;  // parallel to moving_links_
+  std::vector<char> group_has_shape_;  // of the rigid group named after each link
+  ArmChain moving_chain_;              // parallel to moving_links_
   std::vector<int> moving_links_;
   int moving_root_ = 0;
   ArmChain camera_chain_;  // a segment per arm joint, seen from the base link

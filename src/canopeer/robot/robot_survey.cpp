@@ -1,8 +1,10 @@
 #include "canopeer/robot/robot_survey.h"
 
+#include <algorithm>
 #include <map>
 
 #include "canopeer/base/rng.h"
+#include "canopeer/robot/collision/convex_gap.h"
 #include "canopeer/robot/collision_checker.h"
 #include "canopeer/robot/exact_checker.h"
 
@@ -31,6 +33,42 @@ std::size_t part_of(const Box& box, const Vec3& p) {
   return static_cast<std::size_t>(part.x() + 3 * part.y() + 9 * part.z());
 }
 
+TrolleyState draw_trolley(const RobotModel& robot, Rng& rng) {
+  return {rng.uniform(robot.travel_axis().lower, robot.travel_axis().upper),
+          rng.uniform(robot.lift_axis().lower, robot.lift_axis().upper)};
+}
+
+bool solids_touch(const Link& a, const Pose& T_world_a, const Link& b, const Pose& T_world_b) {
+  const double padding = CollisionOptions().self_padding_m;
+  for (const CollisionShape& of_a : a.collision) {
+    const Pose T_shape_world = (T_world_a * of_a.T_link_shape).inverse();
+    for (const CollisionShape& of_b : b.collision) {
+      if (convex_gap(of_a, of_b, T_shape_world * T_world_b * of_b.T_link_shape) < padding)
+        return true;
+    }
+  }
+  return false;
+}
+
+void find_solids_that_always_touch(const RobotModel& robot, std::uint64_t seed,
+                                   std::vector<LinkPairSurvey>& pairs) {
+  constexpr int kStates = 50;
+  Rng rng(seed, "solids");
+  for (LinkPairSurvey& pair : pairs) pair.solids_always_touch = !pair.disabled;
+  std::vector<Pose> T_world_link;
+  for (int i = 0; i < kStates; ++i) {
+    const TrolleyState trolley = draw_trolley(robot, rng);
+    robot.link_poses(draw_configuration(robot, rng), trolley, T_world_link);
+    for (LinkPairSurvey& pair : pairs) {
+      if (!pair.solids_always_touch) continue;
+      const auto a = static_cast<std::size_t>(robot.link_index(pair.link_a));
+      const auto b = static_cast<std::size_t>(robot.link_index(pair.link_b));
+      pair.solids_always_touch =
+          solids_touch(robot.links()[a], T_world_link[a], robot.links()[b], T_world_link[b]);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<LinkPairSurvey> survey_link_pairs(const RobotModel& robot, int states,
@@ -39,8 +77,7 @@ std::vector<LinkPairSurvey> survey_link_pairs(const RobotModel& robot, int state
   Rng rng(seed, "link pairs");
   std::map<std::pair<int, int>, int> touching;
   for (int i = 0; i < states; ++i) {
-    const TrolleyState trolley{rng.uniform(robot.travel_axis().lower, robot.travel_axis().upper),
-                               rng.uniform(robot.lift_axis().lower, robot.lift_axis().upper)};
+    const TrolleyState trolley = draw_trolley(robot, rng);
     for (const auto& pair : exact.touching_pairs(draw_configuration(robot, rng), trolley))
       ++touching[pair];
   }
@@ -62,7 +99,14 @@ std::vector<LinkPairSurvey> survey_link_pairs(const RobotModel& robot, int state
       pairs.push_back(std::move(pair));
     }
   }
+  find_solids_that_always_touch(robot, seed, pairs);
   return pairs;
+}
+
+const char* LinkPairSurvey::reason_to_disable() const {
+  if (adjacent) return "Adjacent";
+  if (always()) return "Always";
+  return never() ? "Never" : nullptr;
 }
 
 std::string srdf_of(const std::string& robot_name, const std::vector<LinkPairSurvey>& pairs) {
@@ -73,10 +117,7 @@ std::string srdf_of(const std::string& robot_name, const std::vector<LinkPairSur
       std::to_string(pairs.empty() ? 0 : pairs.front().states) +
       " random states. -->\n<robot name=\"" + robot_name + "\">\n";
   for (const LinkPairSurvey& pair : pairs) {
-    const char* const reason = pair.adjacent   ? "Adjacent"
-                               : pair.always() ? "Always"
-                               : pair.never()  ? "Never"
-                                               : nullptr;
+    const char* const reason = pair.reason_to_disable();
     if (reason == nullptr) continue;
     srdf += "  <disable_collisions link1=\"" + pair.link_a + "\" link2=\"" + pair.link_b +
             "\" reason=\"" + reason + "\"/>\n";
@@ -144,8 +185,12 @@ std::vector<CoverSurvey> survey_covers(const RobotModel& robot, double sphere_ex
       const auto cover = cover_with_spheres(shape, sphere_excess_m);
       spheres.insert(spheres.end(), cover.begin(), cover.end());
     }
-    covers.push_back(
-        {link.name, static_cast<int>(spheres.size()), measure_cover(link.collision, spheres)});
+    // Each sample is held against all of them.
+    constexpr std::size_t kFew = 64;
+    const std::size_t many = std::max(kFew, spheres.size() + link.collision.size());
+    const int samples = static_cast<int>(200000 * kFew / many);
+    covers.push_back({link.name, static_cast<int>(spheres.size()),
+                      measure_cover(link.collision, spheres, samples)});
   }
   return covers;
 }

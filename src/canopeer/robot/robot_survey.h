@@ -17,9 +17,14 @@ struct LinkPairSurvey {
   bool disabled = false;  ///< the SRDF says they need no check
   int touching = 0;       ///< of the states looked at
   int states = 0;
+  /// Not disabled, and near contact in all of some states by the convex solids of fast checks: no
+  /// state of the arm is free then. Hollows of meshes are filled up in them.
+  bool solids_always_touch = false;
 
   [[nodiscard]] bool always() const { return touching == states; }
   [[nodiscard]] bool never() const { return touching == 0; }
+  /// "Adjacent", "Always" or "Never"; null: it should be checked.
+  [[nodiscard]] const char* reason_to_disable() const;
 };
 
 /// All pairs of links with shapes that something moves against each other, in the order of

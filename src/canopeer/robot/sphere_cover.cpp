@@ -5,14 +5,32 @@
 
 #include "canopeer/base/check.h"
 #include "canopeer/base/hypotenuse.h"
+#include "canopeer/robot/convex_corners.h"
 
 namespace canopeer {
 namespace {
 
+/// No shape gets more pieces along an axis, or in all: where it is drawn a thousand times too
+/// large, say, they are larger.
+constexpr double kMaxPieces = 4096.0;
+
+/// Corners are known to about a nanometre.
+constexpr double kRounding = 1e-7;
+
+/// Thick boxes and meshes are cut in pieces no thicker: spheres around larger ones would stick out
+/// far, and would be larger than what distance fields know.
+constexpr double kThickestBoxM = 0.12;
+constexpr double kThickestMeshM = 0.025;
+
+double thickness(const Vec3& edges, double thickest, double max_excess) {
+  return std::max(std::min(edges.minCoeff(), thickest), 2.0 * max_excess);
+}
+
 std::vector<Sphere> cover_cylinder(double radius, double length, double max_excess) {
   // A sphere of radius R around an axis point holds the stretch of ±√(R² − r²) of the cylinder.
   const double stretch = std::sqrt((radius + max_excess) * (radius + max_excess) - radius * radius);
-  const int count = std::max(1, static_cast<int>(std::ceil(length / (2.0 * stretch))));
+  const int count =
+      static_cast<int>(std::clamp(std::ceil(length / (2.0 * stretch)), 1.0, kMaxPieces));
   const double half = length / (2.0 * count);
   std::vector<Sphere> spheres;
   for (int i = 0; i < count; ++i)
@@ -22,9 +40,12 @@ std::vector<Sphere> cover_cylinder(double radius, double length, double max_exce
 }
 
 std::vector<Sphere> cover_box(const Vec3& edges, double max_excess) {
-  const double cell_edge = std::max(edges.minCoeff(), 2.0 * max_excess);
-  const Eigen::Vector3i count =
-      (edges / cell_edge - Vec3::Constant(1e-9)).array().ceil().cast<int>().max(1);
+  double cell_edge = thickness(edges, kThickestBoxM, max_excess);
+  const auto cells = [&] {
+    return (edges / cell_edge - Vec3::Constant(1e-9)).array().ceil().max(1.0).eval();
+  };
+  while (cells().prod() > kMaxPieces) cell_edge *= 1.5;
+  const Eigen::Vector3i count = cells().cast<int>();
   const Vec3 cell = edges.cwiseQuotient(count.cast<double>());
   std::vector<Sphere> spheres;
   for (int x = 0; x < count.x(); ++x) {
@@ -52,17 +73,35 @@ Sphere sphere_around(const std::vector<Vec3>& points) {
   return {centre, (farthest() - centre).norm()};
 }
 
-/// Along the longest edge slices as for a cylinder; across it pieces no longer than wide. Each
-/// piece is filled with points of a fine grid, and a sphere around those, widened by half a cell's
-/// diagonal, holds it.
+/// The part of a mesh's solid in a box, by its corners; empty: none.
+std::vector<Vec3> corners_within(const CollisionShape& shape, const Vec3& centre,
+                                 const Vec3& half) {
+  std::vector<ShapeMesh::Plane> planes;
+  for (const auto& plane : shape.mesh->planes) {
+    const double reach = plane.normal.cwiseAbs().dot(half);
+    const double spare = plane.offset_m - plane.normal.dot(centre);
+    if (spare < -reach - 1e-9) return {};
+    if (spare < reach) planes.push_back(plane);  // it cuts through the box
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {-1.0, 1.0}) {
+      const Vec3 normal = sign * Vec3::Unit(axis);
+      planes.push_back({normal, normal.dot(centre) + half[axis]});
+    }
+  }
+  return corners_of(planes);
+}
+
+/// Along the longest edge slices as for a cylinder; across it pieces no longer than wide. A sphere
+/// around the corners of the solid's part in each.
 std::vector<Sphere> cover_mesh(const CollisionShape& shape, double max_excess) {
   const Vec3 edges = shape.size_m;
-  const double thin = std::max(edges.minCoeff(), 2.0 * max_excess);
+  double thin = thickness(edges, kThickestMeshM, max_excess);
   Eigen::Index longest = 0;
   edges.maxCoeff(&longest);
-  Eigen::Vector3i pieces;
-  for (int axis = 0; axis < 3; ++axis)
-    pieces[axis] = std::max(1, static_cast<int>(std::round(edges[axis] / (1.5 * thin))));
+  const auto cut = [&] { return (edges / (1.5 * thin)).array().round().max(1.0).eval(); };
+  while (cut().prod() > kMaxPieces) thin *= 1.5;
+  Eigen::Vector3i pieces = cut().cast<int>();
   double across2 = 0.0;  // square of half a piece's diagonal across the longest edge
   for (int axis = 0; axis < 3; ++axis) {
     if (axis == longest) continue;
@@ -70,33 +109,22 @@ std::vector<Sphere> cover_mesh(const CollisionShape& shape, double max_excess) {
   }
   const double radius = std::sqrt(across2);
   const double stretch = std::sqrt((radius + max_excess) * (radius + max_excess) - across2);
-  pieces[longest] = std::max(1, static_cast<int>(std::ceil(edges[longest] / (2.0 * stretch))));
+  pieces[longest] =
+      static_cast<int>(std::clamp(std::ceil(edges[longest] / (2.0 * stretch)), 1.0, kMaxPieces));
 
-  const double step = std::max({0.4 * max_excess, 1e-4, edges.maxCoeff() / 200.0});
-  const double half_diagonal = step * std::sqrt(3.0) / 2.0;
-  std::vector<std::vector<Vec3>> points(static_cast<std::size_t>(pieces.prod()));
-  const Eigen::Vector3i count = (edges / step).array().ceil().cast<int>().max(1) + 1;
-  for (int x = 0; x < count.x(); ++x) {
-    for (int y = 0; y < count.y(); ++y) {
-      for (int z = 0; z < count.z(); ++z) {
-        const Vec3 p = (Vec3(x, y, z) - (count.cast<double>() - Vec3::Ones()) / 2.0) * step;
-        if (signed_distance(shape, p) > half_diagonal) continue;
-        const Eigen::Vector3i at =
-            ((p.cwiseQuotient(edges).array() + 0.5) * pieces.cast<double>().array())
-                .floor()
-                .cast<int>()
-                .max(0)
-                .min(pieces.array() - 1);
-        points[static_cast<std::size_t>((at.x() * pieces.y() + at.y()) * pieces.z() + at.z())]
-            .push_back(p);
+  const Vec3 piece = edges.cwiseQuotient(pieces.cast<double>());
+  std::vector<Sphere> spheres;
+  for (int x = 0; x < pieces.x(); ++x) {
+    for (int y = 0; y < pieces.y(); ++y) {
+      for (int z = 0; z < pieces.z(); ++z) {
+        const Vec3 centre =
+            (Vec3(x, y, z).array() + 0.5).matrix().cwiseProduct(piece) - edges / 2.0;
+        const std::vector<Vec3> corners = corners_within(shape, centre, piece / 2.0);
+        if (corners.empty()) continue;
+        spheres.push_back(sphere_around(corners));
+        spheres.back().radius_m += kRounding;
       }
     }
-  }
-  std::vector<Sphere> spheres;
-  for (const std::vector<Vec3>& piece : points) {
-    if (piece.empty()) continue;
-    spheres.push_back(sphere_around(piece));
-    spheres.back().radius_m += half_diagonal;
   }
   return spheres;
 }

@@ -15,6 +15,8 @@ struct Sphere {
 /// the axis, sticking out of the mantle by at most `max_excess_m` (> 0) unless one sphere is enough
 /// anyway. Box: one sphere around each of cells that are about as long as the box is thin. Mesh:
 /// slices of its convex solid across the longest edge of the bounding box, a sphere around each.
+/// Boxes thicker than 0.12 m and meshes thicker than 0.025 m are cut across too. At most some
+/// thousand spheres, whatever the size.
 [[nodiscard]] std::vector<Sphere> cover_with_spheres(const CollisionShape& shape,
                                                      double max_excess_m);
 

@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <cstdio>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "canopeer/run/fruit_colors.h"
@@ -38,6 +40,21 @@ class SimulationSite : public Site {
   Simulation simulation_;
 };
 
+/// Said once: no motion of the arm makes such a contact or ends it, so none is charged with it.
+void say_what_stands_in_contact(const ExactChecker& judge, const SiteRequest& request) {
+  if (!request.callbacks.on_notice) return;
+  std::set<std::string> links;
+  for (const SegmentPlan& segment : request.file.mission.segments) {
+    for (std::string& link : judge.resting_contacts(segment.trolley)) links.insert(std::move(link));
+  }
+  if (links.empty()) return;
+  std::string names;
+  for (const std::string& link : links) names += (names.empty() ? "" : ", ") + link;
+  request.callbacks.on_notice(
+      "touching the floor or what else stands there, before the arm moves: " + names +
+      "; that is counted as no collision of a motion");
+}
+
 std::string import_line(const Scene& scene, double seconds) {
   char text[256];
   std::snprintf(text, sizeof text, "imported %s: %zu triangles, %zu fruits (%d count) in %.1f s",
@@ -69,7 +86,9 @@ Expected<std::unique_ptr<Site>> make_simulation_site(const SiteRequest& request)
   auto built = build_world_saying(request.file.world, request.file.mission.seed, request.callbacks,
                                   &request.file.mission.detector);
   if (!built) return tl::unexpected(built.error());
-  return std::make_unique<SimulationSite>(std::move(built->scene), request);
+  auto site = std::make_unique<SimulationSite>(std::move(built->scene), request);
+  say_what_stands_in_contact(site->judge(), request);
+  return site;
 }
 
 }  // namespace canopeer

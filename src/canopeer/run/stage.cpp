@@ -93,8 +93,11 @@ Expected<std::unique_ptr<Stage>> Stage::make(MissionFile file, const StageReques
                                              const RunRegistries& registries) {
   if (request.realtime) put_on_the_wall_clock(file, request.threads);
   if (!request.fuel_caches.empty()) file.world.import.fuel_caches = request.fuel_caches;
-  auto robot = load_robot(file.robot, file.T_frame_camera);
+  auto robot = load_robot(file.robot, file.T_frame_camera, request.package_path);
   if (!robot) return tl::unexpected(robot.error());
+  for (const std::string& notice : robot->description().notices) {
+    if (request.callbacks.on_notice) request.callbacks.on_notice(notice);
+  }
   auto ik = ArmIk::make(*robot);
   if (!ik) return tl::unexpected(ik.error());
   if (auto ok = check(file, *robot, registries); !ok) return tl::unexpected(ok.error());

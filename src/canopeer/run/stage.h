@@ -14,9 +14,10 @@ namespace canopeer {
 /// hand (MissionFile), the first three are not looked at.
 struct StageRequest {
   std::filesystem::path mission;
-  Overrides overrides;                             ///< settings in place of the file's
-  std::vector<std::filesystem::path> table_dirs;   ///< where compute tables are found by name
-  std::vector<std::filesystem::path> fuel_caches;  ///< see WorldImportOptions; empty: the file's
+  Overrides overrides;                              ///< settings in place of the file's
+  std::vector<std::filesystem::path> table_dirs;    ///< where compute tables are found by name
+  std::vector<std::filesystem::path> package_path;  ///< where packages of robots' meshes are too
+  std::vector<std::filesystem::path> fuel_caches;   ///< see WorldImportOptions; empty: the file's
   std::string site = "simulation";
   bool realtime = false;  ///< on the wall clock, as every real robot is
   int threads = 0;        ///< at most; 0: all cores

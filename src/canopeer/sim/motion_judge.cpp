@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "canopeer/robot/arm_reach.h"
+
 namespace canopeer {
 namespace {
 
 // No point of an arm in use here is farther than this from a joint axis, so |Δq| rad move it at
 // most this times |Δq|.
 constexpr double kReach = 1.3;
-
-// And from its base, in any direction: its first axis is vertical, its second at most this much
-// less than kReach above the base.
-constexpr double kReachFromBase = 1.7;
 
 std::vector<TriangleMesh> structure_of(const Scene& scene) {
   std::vector<TriangleMesh> found;
@@ -66,7 +64,7 @@ std::shared_ptr<const MotionJudge::Near> MotionJudge::plants_near(
   if (near_ == nullptr || near_->trolley.travel_m != trolley.travel_m ||
       near_->trolley.lift_m != trolley.lift_m) {
     const Vec3 base = robot_.T_world_base(trolley).translation();
-    const Vec3 reach = Vec3::Constant(kReachFromBase);
+    const Vec3 reach = Vec3::Constant(arm_reach_m(robot_));
     near_ = std::make_shared<const Near>(
         Near{trolley, MeshObstacles(plants_in(scene_, Box(base - reach, base + reach)))});
   }

@@ -28,6 +28,9 @@ using LaneMask = long long __attribute__((vector_size(32)));
          load_lanes<FourDoubles>(pose + 8) * p.z() + load_lanes<FourDoubles>(pose + 12);
 }
 
+/// Arm links whose bounds are placed at a time.
+constexpr int kBlock = 24;
+
 int steps_of_four(std::size_t count) {
   return static_cast<int>((count + kLanes - 1) / kLanes) * kLanes;
 }
@@ -52,25 +55,30 @@ void CollisionChecker::collect_groups() {
 }
 
 void CollisionChecker::collect_reaches() {
-  const int lanes = steps_of_four(arm_links_.size());
-  apart2_m2_.assign(obstacles_.size() * static_cast<std::size_t>(lanes), -1.0);
-  for (std::size_t o = 0; o < obstacles_.size(); ++o) {
-    const Obstacle& obstacle = obstacles_[o];
-    const bool box = obstacle.moving < 0 && obstacle.shape.kind == ShapeKind::kBox;
-    for (const int a : obstacle.arm_links) {
-      const double apart =
-          arm_links_[a].bound.radius_m + options_.self_padding_m + (box ? 0.0 : obstacle.radius_m);
-      apart2_m2_[o * static_cast<std::size_t>(lanes) + static_cast<std::size_t>(a)] = apart * apart;
+  apart2_m2_.clear();
+  for (std::size_t first = 0; first < arm_links_.size(); first += kBlock) {
+    const std::size_t count = std::min<std::size_t>(kBlock, arm_links_.size() - first);
+    for (const Obstacle& obstacle : obstacles_) {
+      const bool box = obstacle.body < 0 && obstacle.shape.kind == ShapeKind::kBox;
+      const std::size_t row = apart2_m2_.size();
+      apart2_m2_.resize(row + static_cast<std::size_t>(steps_of_four(count)), -1.0);
+      for (const int link : obstacle.arm_links) {
+        const auto a = static_cast<std::size_t>(link);
+        if (a < first || a >= first + count) continue;
+        const double apart = arm_links_[a].bound.radius_m + options_.self_padding_m +
+                             (box ? 0.0 : obstacle.radius_m);
+        apart2_m2_[row + a - first] = apart * apart;
+      }
     }
   }
 }
 
-bool CollisionChecker::group_free(const Pose& T_world_link, const SphereGroup& group) const {
+bool CollisionChecker::group_free(const Pose& T_world_body, const SphereGroup& group) const {
   for (int i = group.first_sphere; i < group.last_sphere; ++i) {
-    const Vec3 centre = T_world_link * centres_[i];
+    const Vec3 centre = T_world_body * centres_[i];
     if (static_cast<double>(map_->distance(centre)) - radii_m_[i] >= options_.map_padding_m)
       continue;
-    if (shape_clearance(T_world_link, centre, i, options_.map_padding_m,
+    if (shape_clearance(T_world_body, centre, i, options_.map_padding_m,
                         options_.map_padding_m + kShapeMarginM) < options_.map_padding_m)
       return false;
   }
@@ -78,60 +86,48 @@ bool CollisionChecker::group_free(const Pose& T_world_link, const SphereGroup& g
 }
 
 bool CollisionChecker::pair_free(const Obstacle& obstacle, const ArmLink& arm_link,
-                                 const Pose* T_world_link) const {
+                                 const Pose* T_world_body) const {
   const Pose T_shape_world =
-      obstacle.moving < 0 ? obstacle.T_shape_world
-                          : (T_world_link[obstacle.moving] * obstacle.shape.T_link_shape).inverse();
-  const Pose& T_world_arm = T_world_link[arm_link.moving];
+      obstacle.body < 0 ? obstacle.T_shape_world
+                        : (T_world_body[obstacle.body] * obstacle.shape.T_link_shape).inverse();
+  const Pose& T_world_arm = T_world_body[arm_link.body];
   const Vec3 bound = T_shape_world * (T_world_arm * arm_link.bound.centre);
   if (signed_distance(obstacle.shape, bound) - arm_link.bound.radius_m >= options_.self_padding_m)
     return true;
+  int apart = -1;  // the shape of the link last found to be
   for (int i = arm_link.first_sphere; i < arm_link.last_sphere; ++i) {
     const Vec3 centre = T_shape_world * (T_world_arm * centres_[i]);
-    if (signed_distance(obstacle.shape, centre) - radii_m_[i] < options_.self_padding_m)
+    if (signed_distance(obstacle.shape, centre) - radii_m_[i] >= options_.self_padding_m) continue;
+    const int shape = sphere_shapes_[i];
+    if (shape == apart) continue;
+    if (!has_mesh(obstacle, shape) ||
+        mesh_gap(obstacle, shape, T_shape_world * T_world_arm) < options_.self_padding_m)
       return false;
+    apart = shape;
   }
   return true;
 }
 
-[[gnu::always_inline]] inline bool CollisionChecker::look_at_state(const Configuration& q) const {
-  Pose T_world_link[kMaxMovingLinks];
-  robot_->moving_link_poses(q, T_world_root_, T_world_link);
-
-  if (map_ != nullptr) {
-    // With a voxel's diagonal to spare no sphere inside can be found nearer than its padding.
-    const double spare = options_.map_padding_m + std::sqrt(3.0) * map_->resolution_m();
-    const Box& known = map_->world();
-    for (const SphereGroup& group : groups_) {
-      const Pose& T = T_world_link[arm_links_[group.arm_link].moving];
-      const Lanes lanes = apply(T.matrix().data(), group.bound.centre);
-      const Vec3 centre(lanes[0], lanes[1], lanes[2]);
-      // A centre beyond the field's box says nothing of spheres within it.
-      const double inside =
-          std::min((centre - known.min()).minCoeff(), (known.max() - centre).minCoeff());
-      const double clearance = static_cast<double>(map_->distance(centre)) - group.bound.radius_m;
-      if (inside >= group.bound.radius_m && clearance >= spare) continue;
-      if (!group_free(T, group)) return false;
-    }
-  }
-
-  double x[kMaxArmLinks] = {};
-  double y[kMaxArmLinks] = {};
-  double z[kMaxArmLinks] = {};
-  for (std::size_t a = 0; a < arm_links_.size(); ++a) {
-    const Lanes centre =
-        apply(T_world_link[arm_links_[a].moving].matrix().data(), arm_links_[a].bound.centre);
+/// Arm links `first` … against all obstacles; `apart2` moves on to the next block's row.
+[[gnu::always_inline]] inline bool CollisionChecker::look_at_block(std::size_t first_link,
+                                                                   std::size_t count,
+                                                                   const Pose* T_world_body,
+                                                                   const double*& apart2) const {
+  const ArmLink* const links = arm_links_.data() + first_link;
+  double x[kBlock] = {};
+  double y[kBlock] = {};
+  double z[kBlock] = {};
+  for (std::size_t a = 0; a < count; ++a) {
+    const Lanes centre = apply(T_world_body[links[a].body].matrix().data(), links[a].bound.centre);
     x[a] = centre[0];
     y[a] = centre[1];
     z[a] = centre[2];
   }
-  const int lanes = steps_of_four(arm_links_.size());
-  const double* apart2 = apart2_m2_.data();
+  const int lanes = steps_of_four(count);
   for (const Obstacle& obstacle : obstacles_) {
     Lanes c{obstacle.centre.x(), obstacle.centre.y(), obstacle.centre.z(), 0.0};
-    if (obstacle.moving >= 0)
-      c = apply(T_world_link[obstacle.moving].matrix().data(), obstacle.centre);
-    const bool box = obstacle.moving < 0 && obstacle.shape.kind == ShapeKind::kBox;
+    if (obstacle.body >= 0) c = apply(T_world_body[obstacle.body].matrix().data(), obstacle.centre);
+    const bool box = obstacle.body < 0 && obstacle.shape.kind == ShapeKind::kBox;
     const auto& T = obstacle.T_shape_world.matrix();
     for (int first = 0; first < lanes; first += kLanes, apart2 += kLanes) {
       const Lanes px = load_lanes<FourDoubles>(x + first);
@@ -150,11 +146,39 @@ bool CollisionChecker::pair_free(const Obstacle& obstacle, const ArmLink& arm_li
       const LaneMask near = dx * dx + dy * dy + dz * dz < load_lanes<FourDoubles>(apart2);
       if ((near[0] | near[1] | near[2] | near[3]) == 0) continue;
       for (int lane = 0; lane < kLanes; ++lane) {
-        if (near[lane] != 0 &&
-            !pair_free(obstacle, arm_links_[static_cast<std::size_t>(first + lane)], T_world_link))
+        if (near[lane] != 0 && !pair_free(obstacle, links[first + lane], T_world_body))
           return false;
       }
     }
+  }
+  return true;
+}
+
+[[gnu::always_inline]] inline bool CollisionChecker::look_at_state(const Configuration& q) const {
+  Pose T_world_body[kMaxArmJoints];
+  robot_->body_poses(q, T_world_base_, T_world_body);
+
+  if (map_ != nullptr) {
+    // With a voxel's diagonal to spare no sphere inside can be found nearer than its padding.
+    const double spare = options_.map_padding_m + std::sqrt(3.0) * map_->resolution_m();
+    const Box& known = map_->world();
+    for (const SphereGroup& group : groups_) {
+      const Pose& T = T_world_body[arm_links_[group.arm_link].body];
+      const Lanes lanes = apply(T.matrix().data(), group.bound.centre);
+      const Vec3 centre(lanes[0], lanes[1], lanes[2]);
+      // A centre beyond the field's box says nothing of spheres within it.
+      const double inside =
+          std::min((centre - known.min()).minCoeff(), (known.max() - centre).minCoeff());
+      const double clearance = static_cast<double>(map_->distance(centre)) - group.bound.radius_m;
+      if (inside >= group.bound.radius_m && clearance >= spare) continue;
+      if (!group_free(T, group)) return false;
+    }
+  }
+
+  const double* apart2 = apart2_m2_.data();
+  for (std::size_t first = 0; first < arm_links_.size(); first += kBlock) {
+    const std::size_t count = std::min<std::size_t>(kBlock, arm_links_.size() - first);
+    if (!look_at_block(first, count, T_world_body, apart2)) return false;
   }
   return true;
 }

@@ -1,4 +1,4 @@
-#include "canopeer/mission/segment/arm_reach.h"
+#include "canopeer/robot/arm_reach.h"
 
 #include <algorithm>
 #include <cmath>
