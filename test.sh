@@ -3,4 +3,4 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 scripts/build.sh release
-ctest --test-dir build/release --output-on-failure -j 2 "$@"
+ctest --test-dir build/release --output-on-failure -j "$(nproc)" "$@"
