@@ -8,7 +8,7 @@
 
 namespace canopeer {
 
-/// Adds the <disable_collisions> pairs of an SRDF file to `robot`; the links must be in it. Other
+/// Adds the `<disable_collisions>` pairs of an SRDF file to `robot`; the links must be in it. Other
 /// elements (groups, states) are left alone: robot.yaml says what they would. Errors name file and
 /// line.
 [[nodiscard]] Expected<void> read_srdf(const std::filesystem::path& path, RobotDescription& robot);

@@ -17,6 +17,7 @@ struct CloudScan {
   std::span<const float> roi_confidence;
 };
 
+/// Which points of a cloud count when it is fused.
 struct CloudFusionOptions {
   double max_range_m = 3.0;         ///< farther points are no end points; space is freed up to here
   double min_range_m = 0.0;         ///< nearer points (the sensor's own housing) count for nothing
