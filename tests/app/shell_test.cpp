@@ -60,6 +60,13 @@ TEST(Shell, FilesOfTheProgramMayLieElsewhere) {
   EXPECT_NE(text.find("missions       my_own\n"), std::string::npos) << text;
 }
 
+TEST(Shell, AFolderOfTheSameNameHidesNoMission) {
+  const test::TemporaryDirectory folder;
+  const std::string text = piped("cd " + (folder / "").string() + "; mkdir smoke; " + kProgram +
+                                 " scene inspect smoke --counts");
+  EXPECT_NE(text.find("fruits"), std::string::npos) << text;
+}
+
 TEST(Shell, CommandsAndOptionsAreCompleted) {
   EXPECT_EQ(offered("ru", 1), (Offers{"run"}));
   EXPECT_TRUE(among(offered("\"\"", 1), "doctor"));
