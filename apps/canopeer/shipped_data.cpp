@@ -50,7 +50,8 @@ std::vector<std::string> shipped_missions() {
 fs::path mission_file_of(const std::string& given) {
   std::error_code code;
   const fs::path path(given);
-  if (fs::exists(path, code) || path.has_extension() || path.has_parent_path()) return path;
+  const bool is_file = fs::exists(path, code) && !fs::is_directory(path, code);
+  if (is_file || path.has_extension() || path.has_parent_path()) return path;
   const std::vector<std::string> names = shipped_missions();
   if (std::find(names.begin(), names.end(), given) != names.end()) {
     return shipped_data() / "missions" / (given + ".yaml");

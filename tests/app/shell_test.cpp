@@ -60,6 +60,13 @@ TEST(Shell, FilesOfTheProgramMayLieElsewhere) {
   EXPECT_NE(text.find("missions       my_own\n"), std::string::npos) << text;
 }
 
+TEST(Shell, AFolderOfTheSameNameHidesNoMission) {
+  const test::TemporaryDirectory folder;
+  const std::string text = piped("cd " + (folder / "").string() + "; mkdir smoke; " + kProgram +
+                                 " scene inspect smoke --counts");
+  EXPECT_NE(text.find("fruits"), std::string::npos) << text;
+}
+
 TEST(Shell, CommandsAndOptionsAreCompleted) {
   EXPECT_EQ(offered("ru", 1), (Offers{"run"}));
   EXPECT_TRUE(among(offered("\"\"", 1), "doctor"));
@@ -82,7 +89,7 @@ TEST(Shell, ValuesThatMayBeNamedAreCompleted) {
   EXPECT_TRUE(among(offered("run smoke --planner v", 4), "vmp_released"));
   EXPECT_EQ(offered("run --site = si", 4), (Offers{"simulation"}));
   EXPECT_EQ(offered("bench smoke --planners vmp,ran", 4), (Offers{"vmp,random"}));
-  EXPECT_EQ(offered("fruit fit --unit \"\"", 4), (Offers{"cm", "m", "mm"}));
+  EXPECT_EQ(offered("fruit fit --unit \"\"", 4), (Offers{"m", "cm", "mm"}));
   EXPECT_EQ(offered("run smoke --compute-table ref", 4), (Offers{"reference"}));
   EXPECT_EQ(offered("run smoke --seed \"\"", 4), Offers{});
 }

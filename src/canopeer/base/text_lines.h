@@ -7,8 +7,8 @@
 
 namespace canopeer {
 
-/// Walks through text line by line; a line ends with \n, \r\n or the text. The text must outlive
-/// it.
+/// Walks through text line by line; a line ends with `\n`, `\r\n` or the text. The text must
+/// outlive it.
 class TextLines {
  public:
   explicit TextLines(std::string_view text) : rest_(text) {}

@@ -33,6 +33,7 @@ struct Match {
   [[nodiscard]] std::string title() const;
 };
 
+/// The runs of a campaign, compared mission by mission.
 struct Comparison {
   int runs_planned = 0;
   int runs_there = 0;

@@ -24,6 +24,7 @@ struct CampaignProgress {
   std::string message;                   ///< of a failed run: the last line it printed
 };
 
+/// Who makes a campaign's runs, and what of them is kept.
 struct JobPoolOptions {
   std::filesystem::path program;  ///< canopeer
   std::filesystem::path out;      ///< the campaign's folder

@@ -29,6 +29,7 @@ struct YamlNode {
 
 /// A YAML file as a tree, and what is wrong with it so far.
 struct YamlDocument {
+  /// Something that is wrong, and where.
   struct Complaint {
     bool missing = false;  ///< a key that is not there: an unknown key explains it better
     int line = 0;

@@ -12,6 +12,7 @@ struct Blob {
   double area_cm2 = 0.0;  ///< Σ (depth / f)²: the piece's size seen head-on
 };
 
+/// The pieces of a mask, and which piece each pixel is of.
 struct BlobLabels {
   Image<int> label;  ///< index into blobs, −1 outside the mask
   std::vector<Blob> blobs;

@@ -5,6 +5,7 @@
 
 namespace canopeer {
 
+/// How far the labels of a frame are believed.
 struct LabelDetectorOptions {
   /// A pixel is what most pixels of its window are, so that labels that are wrong here and there do
   /// no harm. Side 2 · radius + 1 pixels; 0: labels are taken as they are.

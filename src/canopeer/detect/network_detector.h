@@ -9,6 +9,7 @@
 
 namespace canopeer {
 
+/// The network, and how its input and output are to be read.
 struct NetworkDetectorOptions {
   std::filesystem::path model;  ///< ONNX file
   int input_width_px = 640;     ///< images are scaled to what the model was made for

@@ -10,6 +10,7 @@
 
 namespace canopeer {
 
+/// How fruits are found in a cloud, and their shapes fitted.
 struct CloudFitOptions {
   FruitMapOptions fruit;           ///< of its surface only the clustering, shapes and limits count
   double cell_m = 0.004;           ///< points are thinned to one in a cell of this size

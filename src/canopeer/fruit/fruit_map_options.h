@@ -10,6 +10,7 @@
 
 namespace canopeer {
 
+/// How a FruitMap works: surface, pieces, fruits, shapes, and bounds on an update.
 struct FruitMapOptions {
   TsdfOptions tsdf;
   double min_fruit_share = 0.5;  ///< surface counts when so many of its pixels were taken for fruit

@@ -23,13 +23,13 @@
 #include "canopeer/base/expected.h"
 #include "canopeer/geometry/pose.h"
 
-/// State as bytes (cereal, little-endian, the same on every machine). A class with state says what
-/// belongs to it in one place, for both directions:
-///
-///     template <typename Archive>
-///     void serialize(Archive& archive) { archive(nodes_, edges_); }
-///
-/// Heavy: for .cpp files only. The bytes hold no checksum; whoever writes them to a file adds one.
+// State as bytes (cereal, little-endian, the same on every machine). A class with state says what
+// belongs to it in one place, for both directions:
+//
+//     template <typename Archive>
+//     void serialize(Archive& archive) { archive(nodes_, edges_); }
+//
+// Heavy: for .cpp files only. The bytes hold no checksum; whoever writes them to a file adds one.
 
 namespace canopeer {
 
@@ -51,6 +51,7 @@ class StateReader;
 
 namespace cereal::traits::detail {
 
+/// Tells cereal which archive writes what StateReader reads.
 template <>
 struct get_output_from_input<canopeer::StateReader> {
   using type = cereal::PortableBinaryOutputArchive;

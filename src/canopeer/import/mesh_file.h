@@ -19,8 +19,9 @@ struct MeshFile {
   std::vector<std::string> notices;  ///< what is missing but can be done without
 };
 
+/// How a mesh is read, and what reading it may cost.
 struct MeshFileOptions {
-  /// COLLADA's <up_axis>: true turns the mesh upright as COLLADA asks; false takes coordinates as
+  /// COLLADA's `<up_axis>`: true turns the mesh upright as COLLADA asks; false takes coordinates as
   /// they are, as Gazebo does.
   bool honour_up_axis = true;
   /// Processor time that even the smallest file may take, > 0; larger ones get more.

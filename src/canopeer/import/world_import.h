@@ -19,7 +19,7 @@ struct WorldImportOptions {
   std::vector<std::filesystem::path> fuel_caches;
   NamePatternOptions patterns;
   FruitComponentOptions fruits;
-  /// COLLADA's <up_axis>: true follows it, false takes coordinates as they are, as Gazebo does.
+  /// COLLADA's `<up_axis>`: true follows it, false takes coordinates as they are, as Gazebo does.
   bool honour_up_axis = true;
 };
 

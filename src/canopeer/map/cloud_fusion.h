@@ -20,6 +20,7 @@ struct CloudScan {
 /// No sensor of a robot measures that far: 1e30 is what some write when nothing came back.
 inline constexpr double kNoReturn_m = 10000.0;
 
+/// Which points of a cloud count when it is fused.
 struct CloudFusionOptions {
   double max_range_m = 3.0;         ///< farther points are no end points; space is freed up to here
   double min_range_m = 0.0;         ///< nearer points (the sensor's own housing) count for nothing

@@ -14,6 +14,7 @@ enum class DistanceTo {
   roi,
 };
 
+/// To what distances are measured, where, and how far.
 struct DistanceFieldOptions {
   Box world;                   ///< where distances are wanted; not empty
   double truncation_m = 0.15;  ///< larger distances are reported as this; at most 120 voxels

@@ -6,8 +6,8 @@
 
 namespace canopeer {
 
-/// The voxels view poses aim at, by kind ([Zaenker23] §III; FrontierTargets::occupied and ::border
-/// exclude each other, either may share voxels with ::roi). All are free; sorted by block, then z,
+/// The voxels view poses aim at, by kind ([Zaenker23] §III). `occupied` and `border` exclude each
+/// other; either may share voxels with `roi`. All are free; sorted by block, then z,
 /// y, x.
 struct FrontierTargets {
   std::vector<VoxelIndex> roi;       ///< an 18-neighbour is ROI and an 18-neighbour is unknown

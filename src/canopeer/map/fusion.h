@@ -8,6 +8,7 @@
 
 namespace canopeer {
 
+/// Which pixels of a frame count, and for how much.
 struct FusionOptions {
   /// Points farther from the camera (Euclidean) are no end points; space is freed up to here.
   double max_range_m = 3.0;
@@ -23,6 +24,7 @@ struct FusionOptions {
   SimdLevel simd = best_simd_level();
 };
 
+/// What a frame changed in the map.
 struct FuseResult {
   std::int64_t fused_points = 0;    ///< pixels that were end points
   std::int64_t newly_known = 0;     ///< voxels unknown before, known after

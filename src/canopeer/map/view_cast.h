@@ -26,6 +26,7 @@ struct ViewFan {
   double max_unknown_m = std::numeric_limits<double>::infinity();
 };
 
+/// What a view would see that is not known yet.
 struct ViewCast {
   VoxelSet unknown;  ///< the distinct unknown voxels the rays cross
   BlockSet touched;  ///< the result holds as long as these do not change

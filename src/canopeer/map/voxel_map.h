@@ -55,6 +55,7 @@ struct FreeBlock {
   VoxelMask free;
 };
 
+/// What an update changed.
 struct UpdateResult {
   std::int64_t newly_known = 0;     ///< voxels unknown before, known after
   std::int64_t updated_voxels = 0;  ///< voxels that got a hit or a miss

@@ -14,6 +14,7 @@ namespace canopeer {
 /// without voxels are not kept; in what a view sees they are five of eight.
 class VoxelSet {
  public:
+  /// The voxels of one block that are in the set.
   struct Block {
     BlockKey key = 0;
     VoxelMask mask;

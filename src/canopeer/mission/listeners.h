@@ -31,6 +31,7 @@ class Watcher {
   virtual void on_loss(std::int64_t /*events*/) {}
 };
 
+/// How a watcher is told: its name, and how many events may wait.
 struct WatchOptions {
   std::string name = "watcher";  ///< for messages
   std::size_t queue = 256;       ///< events that wait, at least 1; when full the oldest is lost

@@ -34,6 +34,7 @@ struct MotionOutcome {
   bool plant_contact = false;  ///< with a part of a plant that was not mapped
 };
 
+/// The arm, as a mission moves it. One call at a time.
 class Arm {
  public:
   virtual ~Arm() = default;
@@ -48,6 +49,7 @@ class Arm {
   [[nodiscard]] virtual Expected<MotionOutcome> finish() = 0;
 };
 
+/// What carries the arm along the row and lifts it.
 class Trolley {
  public:
   virtual ~Trolley() = default;
@@ -56,6 +58,7 @@ class Trolley {
   [[nodiscard]] virtual Expected<void> move_to(const TrolleyState& goal) = 0;
 };
 
+/// The camera at the arm's flange.
 class Camera {
  public:
   virtual ~Camera() = default;

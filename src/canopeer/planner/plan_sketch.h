@@ -14,6 +14,7 @@ namespace canopeer {
 /// What a planner has in mind, for people who watch. Ids are the planner's own and stay the same
 /// within a segment.
 struct PlanSketch {
+  /// A view of the graph, as others may draw it.
   struct View {
     Pose T_world_camera = Pose::Identity();  ///< optical frame
     TargetKind kind = TargetKind::none;      ///< what it looks at

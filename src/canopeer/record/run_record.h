@@ -21,6 +21,7 @@ struct RunHeader {
   std::string settings_json;  ///< every effective option, as a JSON object in text
 };
 
+/// A segment of a mission: from when to when, and where it looks.
 struct SegmentEvent {
   int segment = 0;   ///< 0 …
   std::string name;  ///< e.g. "stop 1, side 2"

@@ -18,12 +18,14 @@ struct Labels {
   static constexpr std::uint8_t kNothing = 255;
 };
 
+/// What a camera sees of a scene: three images of one size.
 struct RenderedView {
   DepthImage depth;  ///< along the optical axis, metres; 0: nothing within the camera's range
   ColorImage color;
   Labels labels;
 };
 
+/// Light, shadow and noise of a rendered view.
 struct RenderOptions {
   /// Towards the light, world; any length but 0.
   Vec3 light_direction{0.35, -0.25, 0.9};

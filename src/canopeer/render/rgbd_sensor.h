@@ -13,6 +13,7 @@
 
 namespace canopeer {
 
+/// The camera: lens, mounting, and its faults.
 struct RgbdSensorOptions {
   CameraIntrinsics intrinsics = CameraIntrinsics::from_fov(640, 480, 80.0 * std::numbers::pi / 180);
   LensDistortion lens;

@@ -13,6 +13,7 @@
 
 namespace canopeer {
 
+/// A picture of a run, for its report.
 struct ReportPicture {
   std::string caption;    ///< from the file's name: "02_row_after.png" → "Row after"
   std::string png_bytes;  ///< the file

@@ -12,6 +12,7 @@ namespace canopeer {
 
 class DistanceField;
 
+/// What clearance a state of the arm must keep to be free.
 struct CollisionOptions {
   double map_padding_m = 0.005;    ///< clearance kept from occupied voxels
   double self_padding_m = 0.005;   ///< clearance kept between links, and from the trolley

@@ -7,6 +7,7 @@
 
 namespace canopeer {
 
+/// How far a rounded corner may leave the planned path.
 struct CornerRoundingOptions {
   double max_deviation_rad = 0.4;   ///< tried first at each corner, then halved
   double min_deviation_rad = 0.01;  ///< corners with no free arc down to this are stopped at

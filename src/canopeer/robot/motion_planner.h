@@ -9,6 +9,7 @@
 
 namespace canopeer {
 
+/// How hard a MotionPlanner tries.
 struct MotionPlannerOptions {
   int max_iterations = 20000;   ///< of RRTConnect; a count, so that a plan is no matter of time
   int shortcut_attempts = 200;  ///< tries to cut a corner of the path found

@@ -7,6 +7,7 @@
 
 namespace canopeer {
 
+/// How far a timed path may pass its corners, and how finely arcs are cut.
 struct PathTimingOptions {
   double max_deviation = 0.05;  ///< how far the path may pass a waypoint, Euclidean, rad (m)
   double arc_step_rad = 0.05;   ///< what the path turns by in one interval of constant

@@ -15,6 +15,7 @@ enum class ShapeKind { kBox, kCylinder, kSphere, kMesh };
 
 /// A triangle mesh as a part of a robot, and the convex solid that stands for it in fast checks.
 struct ShapeMesh {
+  /// The plane of a face of the solid.
   struct Plane {
     Vec3 normal = Vec3::UnitZ();  ///< unit, outwards
     double offset_m = 0.0;        ///< normal · p ≤ offset_m inside
@@ -55,6 +56,7 @@ struct CollisionShape {
   }
 };
 
+/// A rigid part of the robot. Its shapes are in the frame of the link.
 struct Link {
   std::string name;
   std::vector<CollisionShape> collision;  ///< empty: a frame only

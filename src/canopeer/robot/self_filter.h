@@ -8,6 +8,7 @@
 
 namespace canopeer {
 
+/// How near to a link a point is the link.
 struct SelfFilterOptions {
   /// A point this near to a link is taken for the link: noise of the depth, errors of the hand-eye
   /// calibration. What really is that near is not seen then.

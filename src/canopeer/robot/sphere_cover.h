@@ -6,6 +6,7 @@
 
 namespace canopeer {
 
+/// A ball that covers a part of a link.
 struct Sphere {
   Vec3 centre = Vec3::Zero();  ///< link frame
   double radius_m = 0.0;

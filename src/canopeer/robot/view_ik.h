@@ -12,6 +12,7 @@ namespace canopeer {
 
 class IkSolver;
 
+/// How many ways of holding the camera are tried for a view.
 struct ViewIkOptions {
   int rolls = 8;  ///< turns about the optical axis tried per view, evenly spread over 360°;
                   ///< numeric solutions leave the roll free and do not use it

@@ -5,6 +5,7 @@
 
 namespace canopeer {
 
+/// How far a view sees, and how much of the graph a search looks at.
 struct PathSearchOptions {
   /// Rays of one view's visible set. They end after 0.3 m of unknown space: farther behind leaves
   /// not mapped yet, a ray counts what it will hardly see.

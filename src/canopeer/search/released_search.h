@@ -5,6 +5,7 @@
 
 namespace canopeer {
 
+/// What a view of the published search sees, and when the search stops.
 struct ReleasedSearchOptions {
   ViewFan fan{.columns = 9, .rows = 7};
   double time_limit_s = 2.0;  ///< by the cost table; 0: none

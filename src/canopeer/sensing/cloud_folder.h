@@ -11,12 +11,14 @@
 
 namespace canopeer {
 
+/// Where the poses of a folder of clouds come from.
 struct CloudFolderOptions {
   double max_pose_gap_s = 0.25;  ///< between the poses before and after a cloud
   /// Empty: the folder's own (poses.txt, trajectory.txt …), if there is one.
   std::filesystem::path trajectory;
 };
 
+/// One cloud of a folder: its file, and where its sensor was.
 struct CloudFrame {
   std::filesystem::path file;
   /// Nothing: the file itself says it (VIEWPOINT of PCD).

@@ -7,6 +7,7 @@
 
 namespace canopeer {
 
+/// A colour, 8 bit a channel.
 struct Rgb {
   std::uint8_t r = 0;
   std::uint8_t g = 0;

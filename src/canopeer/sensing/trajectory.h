@@ -11,6 +11,7 @@
 
 namespace canopeer {
 
+/// Where the camera was at one time.
 struct TimedPose {
   double time_s = 0.0;  ///< without time stamps: the number of the pose, from 0
   Pose T_world_camera = Pose::Identity();

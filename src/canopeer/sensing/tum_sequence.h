@@ -9,6 +9,7 @@
 
 namespace canopeer {
 
+/// How images and poses of a sequence are joined.
 struct TumOptions {
   double max_difference_s = 0.02;    ///< between a depth image and its colour image
   double max_pose_gap_s = 0.25;      ///< between the poses before and after a depth image

@@ -12,6 +12,7 @@
 
 namespace canopeer {
 
+/// How good the simulated camera and arm are.
 struct SimulationOptions {
   CameraIntrinsics camera =
       CameraIntrinsics::from_fov(640, 480, 80.0 / 180.0 * 3.14159265358979323846);

@@ -10,6 +10,7 @@
 
 namespace canopeer {
 
+/// Which views become nodes, and which nodes are joined.
 struct GraphBuilderOptions {
   ViewSamplerOptions sampler;
   SimilarityLimits similarity;

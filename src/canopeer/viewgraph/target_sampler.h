@@ -25,6 +25,7 @@ struct TargetShares {
   }
 };
 
+/// A place to look at, and what is to be found there.
 struct Target {
   TargetKind kind = TargetKind::none;
   Vec3 p_world = Vec3::Zero();

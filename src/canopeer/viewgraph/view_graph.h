@@ -12,6 +12,7 @@ namespace canopeer {
 /// Names a node of one ViewGraph; stays valid until the graph is cleared.
 enum class NodeId : std::uint32_t {};
 
+/// A motion of the arm from one view to another.
 struct ViewEdge {
   NodeId to{};
   double time_s = 0.0;  ///< execution time of the straight joint motion
@@ -22,6 +23,7 @@ struct ViewEdge {
   }
 };
 
+/// A view of the graph, and the motions that begin there.
 struct ViewNode {
   ViewPose view;
   std::vector<ViewEdge> edges;
@@ -71,6 +73,7 @@ class ViewGraph {
   [[nodiscard]] int edge_count() const { return edges_; }
   [[nodiscard]] std::optional<double> edge_time(NodeId a, NodeId b) const;
 
+  /// A node, and how far it is.
   struct Neighbor {
     NodeId id{};
     double distance_rad = 0.0;  ///< L1 in joint space

@@ -13,6 +13,7 @@
 
 namespace canopeer {
 
+/// How far from its target a view is drawn, and how often it is tried.
 struct ViewSamplerOptions {
   double min_target_distance_m = 0.3;  ///< nearest camera position to its target
   double max_target_distance_m = 0.6;

@@ -7,6 +7,7 @@
 
 namespace canopeer {
 
+/// How much work a fruit's fit may be, and what is known of fruits beforehand.
 struct FitOptions {
   ShapePrior prior;
   /// Starts are tried on so many of the points; the best goes on with all that `max_points` allows.

@@ -17,6 +17,7 @@ namespace canopeer {
 
 inline constexpr int kPixelLabels = 4;  ///< values of PixelLabel
 
+/// Voxels of the fruit surface, and which pixels carve it.
 struct TsdfOptions {
   double voxel_m = 0.004;           ///< Marangoz et al., CASE 2022
   double truncation_m = 0.012;      ///< distances are kept up to here, in front and behind
@@ -58,6 +59,7 @@ class FruitTsdf {
   static constexpr int kSide = 8;
   static constexpr int kVoxels = kSide * kSide * kSide;
   static constexpr float kSeenWeight = 0.1F;  ///< about one frame from 1.5 m
+  /// 8³ voxels.
   struct Block {
     VoxelIndex index = VoxelIndex::Zero();  ///< in blocks
     // Of each voxel (see offset()) the truncated signed distance, positive outside, and how much it

@@ -10,6 +10,7 @@ namespace canopeer {
 
 /// The convex hull of points: the volume of a fruit whose mesh is open.
 struct ConvexHull {
+  /// The plane of a face.
   struct Plane {
     Vec3 normal;          ///< unit, outwards
     double offset = 0.0;  ///< normal · p + offset ≤ 0 inside

@@ -8,6 +8,7 @@
 
 namespace canopeer {
 
+/// What hangs together as one fruit.
 struct FruitComponentOptions {
   double weld_tolerance_m = 5e-5;  ///< vertices this close are one
   double min_hull_cm3 = 0.5;       ///< what is smaller is a scrap of fruit colour, no fruit

@@ -26,6 +26,7 @@ struct PartsRow {
   std::size_t triangles = 0;
 };
 
+/// A world that was read: its scene, what each part was taken for, what was left out.
 struct ImportedScene {
   Scene scene;
   std::vector<PartsRow> parts;

@@ -13,6 +13,7 @@ struct LogOddsSteps {
   std::int16_t hit = 0, miss = 0, min = 0, max = 0, threshold = 0;
 };
 
+/// Where log-odds are clamped, fixed point.
 struct LogOddsRange {
   std::int16_t min = 0, max = 0;
 };

@@ -27,6 +27,7 @@ class Timekeeper {
   /// Sums since the run began: units and simulated seconds by kind.
   [[nodiscard]] std::vector<WorkItem> work_items() const;
 
+  /// Work done while the arm waits, and beside that.
   struct Meters {
     WorkMeter foreground;
     WorkMeter background;

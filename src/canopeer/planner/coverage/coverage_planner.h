@@ -9,6 +9,7 @@
 
 namespace canopeer {
 
+/// The scan, and how the arm moves from view to view.
 struct CoverageOptions {
   SerpentineOptions scan;
   MotionPlannerOptions motion;

@@ -6,6 +6,7 @@
 
 namespace canopeer {
 
+/// Where the camera stands in a fixed scan, and how it is turned.
 struct SerpentineOptions {
   double spacing_m = 0.3;        ///< between neighbouring camera positions, at most
   double row_distance_m = 0.6;   ///< from the camera to the middle of the sampling region, at least

@@ -9,6 +9,7 @@
 
 namespace canopeer {
 
+/// How many views a decision draws and tries.
 struct RandomOptions {
   double min_target_distance_m = 0.3;  ///< nearest camera position to what it looks at
   int max_tries = 200;  ///< views drawn for one decision; then it waits and draws others

@@ -11,6 +11,7 @@
 
 namespace canopeer {
 
+/// Which views are drawn, what they are worth, and how hard motions are planned.
 struct RvpOptions {
   int views_per_kind = 100;     ///< drawn around ROI frontiers, and around occupied ones
   double min_distance_m = 0.3;  ///< camera to target

@@ -11,6 +11,7 @@
 
 namespace canopeer {
 
+/// Graph, search and motions of the VmpPlanner.
 struct VmpOptions {
   enum class Search {
     best_first,   ///< Algorithm 1 of the paper
