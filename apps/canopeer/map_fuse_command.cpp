@@ -106,6 +106,7 @@ void map_fuse(const MapFuseArguments& arguments) {
                     static_cast<std::size_t>(arguments.threads));
   }
   const auto recording = value_or_stop(open_recording(arguments), kBadInput);
+  const std::atomic<bool>& stop = catch_stop_signals();
   report_gaps(arguments, *recording);
   for (const std::string& notice : value_or_stop(check_recording(*recording), kBadInput)) {
     if (!arguments.quiet) std::fprintf(stderr, "canopeer: notice: %s\n", notice.c_str());
@@ -114,7 +115,6 @@ void map_fuse(const MapFuseArguments& arguments) {
   options.resolution_m = arguments.resolution_m;
   VoxelMap map(options);
 
-  const std::atomic<bool>& stop = catch_stop_signals();
   const Fused fused = fuse_all(arguments, *recording, map, stop);
   const auto files = value_or_stop(write_map(map, arguments.out), kFailed);
   if (!arguments.quiet) {

@@ -25,7 +25,8 @@ Expected<CameraFile> load_camera(const std::filesystem::path& path) {
   const double fy = yaml->required_number("fy_px", {-kMaxPixels, kMaxPixels});
   const double cx = yaml->required_number("cx_px", {-kMaxPixels, kMaxPixels});
   const double cy = yaml->required_number("cy_px", {-kMaxPixels, kMaxPixels});
-  if (std::abs(fy) < 1.0) yaml->complain("fy_px", "expected at least one pixel");
+  if (yaml->has("fy_px") && std::abs(fy) < 1.0)
+    yaml->complain("fy_px", "expected at least one pixel");
   CameraFile file;
   file.intrinsics = intrinsics_of(fx, std::abs(fy), cx, cy);
   file.y_up = fy < 0.0;

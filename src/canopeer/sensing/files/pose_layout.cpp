@@ -167,12 +167,12 @@ std::optional<PoseLayout> layout_of_head(const Words& names) {
   layout.q = found.q;
   layout.from_head = true;
   const auto add = [&](std::size_t i) {
-    layout.taken += (layout.taken.empty() ? "" : ", ") + std::string(names[i]);
+    layout.taken += (layout.taken.empty() ? "" : " ") + std::string(names[i]);
   };
   if (layout.time != PoseLayout::kNone) add(layout.time);
   for (const std::size_t i : layout.t) add(i);
   for (const std::size_t i : layout.q) add(i);
-  layout.taken = "columns " + layout.taken + ", as the file names them";
+  layout.taken += ", as the file names them";
   return layout;
 }
 
