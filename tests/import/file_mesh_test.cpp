@@ -23,7 +23,7 @@ FileMesh some_mesh() {
   part.group = "plant";
   mesh.parts = {part, part};
   mesh.materials.resize(2);
-  mesh.materials[1] = {"red", {200, 1, 2}, "red.png", "mask.png", false, 77, true};
+  mesh.materials[1] = {"red", {200, 1, 2}, "red.png", "mask.png", false, 77, true, true};
   mesh.pictures["*0"] = std::string("\x89PNG\0x", 6);
   mesh.notices = {"something"};
   return mesh;

@@ -72,6 +72,15 @@ TEST(FieldGltf, TexturesLieWhereTheirTransformPutsThem) {
             (Rgb{0, 0, 255}));
 }
 
+TEST(FieldGltf, TheMaterialsColourTintsItsPicture) {
+  const auto tinted = [](const std::string& factor) {
+    return color_of(R"({"index":0,"texCoord":1},"baseColorFactor":)" + factor);  // on white
+  };
+  EXPECT_EQ(tinted("[1,1,1,1]"), (Rgb{255, 255, 255}));
+  EXPECT_EQ(tinted("[1,0,0,1]"), (Rgb{255, 0, 0}));
+  EXPECT_EQ(tinted("[0.2158605,1,1,1]"), (Rgb{128, 255, 255}));  // a share of light, no level
+}
+
 TEST(FieldGltf, PicturesOfExtensionsAreSources) {
   const test::WorldFiles files;
   test::GltfCube cube;
@@ -153,6 +162,13 @@ TEST(FieldGltf, WhatIsDamagedIsSaidInOurWords) {
   std::string text = test::gltf_text(cube);
   text.replace(text.find("\"count\":8"), 9, "\"count\":9999");
   EXPECT_NE(error(text).find("beyond the end of its buffer"), std::string::npos) << error(text);
+}
+
+TEST(FieldGltf, TheFirstVersionIsLeftToTheLibrary) {
+  const test::WorldFiles files;
+  EXPECT_EQ(plain_gltf(files.add("a.gltf", R"({"asset":{"version":1.0},"meshes":{}})")), "");
+  EXPECT_EQ(plain_gltf(files.add("b.gltf", R"({"asset":{"version":"1.1"}})")), "");
+  EXPECT_EQ(plain_gltf(files.add("c.glb", "glTF" + std::string("\1\0\0\0rest", 8))), "");
 }
 
 /// Digits and words of the format in each other's places: no crash, whatever the numbers say.

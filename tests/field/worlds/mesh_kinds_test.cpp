@@ -64,6 +64,19 @@ TEST(FieldMeshes, FacesOfPointsAndLinesDoNotRefuseAMesh) {
   }
 }
 
+TEST(FieldMeshes, WhatHasNoShapeGetsNone) {
+  const test::WorldFiles files;
+  const auto path = files.add(
+      "cameras.dae",
+      "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
+      "version=\"1.4.1\"><asset><unit meter=\"1\"/><up_axis>Z_UP</up_axis></asset>"
+      "<library_visual_scenes><visual_scene id=\"s\"><node id=\"a\" name=\"a\"><translate>1 2 3"
+      "</translate><node id=\"b\" name=\"b\"/></node></visual_scene></library_visual_scenes>"
+      "<scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>");
+  const std::string error = test::import_all_as_fruit(path).error;
+  EXPECT_NE(error.find("holds no triangles"), std::string::npos) << error;
+}
+
 TEST(FieldMeshes, OtherKindsAreNamedByTheirContent) {
   const test::WorldFiles files;
   const std::vector<std::pair<std::string, std::string>> kinds = {

@@ -79,6 +79,9 @@ FileMaterial read_file_material(const aiMaterial& material, MaterialDialect dial
   result.picture = first_texture(material, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
   result.mask = first_texture(material, {aiTextureType_OPACITY});
   if (result.mask == result.picture) result.mask.clear();
+  result.tints = dialect == MaterialDialect::gltf &&
+                 material.Get(AI_MATKEY_BASE_COLOR, color) == aiReturn_SUCCESS &&
+                 !(result.color == Rgb{255, 255, 255});
   read_alpha_rule(material, &result);
   result.see_through = opacity_of(material, result, dialect) < kLeastSeen;
   return result;

@@ -119,6 +119,7 @@ void write(const FileMaterial& material, Writer* to) {
   to->value<std::uint8_t>(material.alpha_cuts);
   to->value(material.cut_below);
   to->value<std::uint8_t>(material.see_through);
+  to->value<std::uint8_t>(material.tints);
 }
 
 FileMaterial read_material(Reader* from) {
@@ -130,6 +131,7 @@ FileMaterial read_material(Reader* from) {
   material.alpha_cuts = from->value<std::uint8_t>() != 0;
   material.cut_below = from->value<std::uint8_t>();
   material.see_through = from->value<std::uint8_t>() != 0;
+  material.tints = from->value<std::uint8_t>() != 0;
   return material;
 }
 

@@ -20,6 +20,7 @@ struct FileMaterial {
   bool alpha_cuts = true;
   std::uint8_t cut_below = 128;  ///< opacity, 0 … 255
   bool see_through = false;
+  bool tints = false;  ///< `color` multiplies the picture, as shares of light: glTF
 };
 
 /// What a mesh library makes of a file, in metres with z up.

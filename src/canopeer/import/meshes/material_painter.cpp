@@ -1,7 +1,9 @@
 #include "canopeer/import/meshes/material_painter.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cmath>
 #include <optional>
 
 #include "canopeer/import/meshes/percent_encoding.h"
@@ -62,17 +64,45 @@ Image<std::uint8_t> grey_of(const ColorImage& color) {
   return grey;
 }
 
+double to_light(double level) {
+  const double s = level / 255.0;
+  return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+}
+
+std::uint8_t to_level(double light) {
+  const double s = light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1.0 / 2.4) - 0.055;
+  return static_cast<std::uint8_t>(std::lround(std::clamp(s, 0.0, 1.0) * 255.0));
+}
+
+/// Each pixel's light times that of `tint`.
+void multiply(ColorImage* image, Rgb tint) {
+  const auto table = [](std::uint8_t share) {
+    std::array<std::uint8_t, 256> levels{};
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      levels[i] = to_level(to_light(static_cast<double>(i)) * to_light(share));
+    }
+    return levels;
+  };
+  const auto red = table(tint.r);
+  const auto green = table(tint.g);
+  const auto blue = table(tint.b);
+  for (Rgb& c : image->pixels()) c = {red[c.r], green[c.g], blue[c.b]};
+}
+
 /// Colour from one picture, opacity from another (or the same, or none) under the alpha rule.
 std::shared_ptr<const Texture> combined(const std::shared_ptr<const Texture>& color,
                                         const std::shared_ptr<const Texture>& mask,
                                         const FileMaterial& rule) {
   if (color == nullptr && mask == nullptr) return nullptr;
   const bool own_alpha = color != nullptr && !color->opacity.empty();
-  if (mask == nullptr && (!own_alpha || (rule.alpha_cuts && rule.cut_below == color->cut_below))) {
+  const bool tints = color != nullptr && rule.tints;
+  if (mask == nullptr && !tints &&
+      (!own_alpha || (rule.alpha_cuts && rule.cut_below == color->cut_below))) {
     return color;  // shared as it is
   }
   Texture texture;
   if (color != nullptr) texture = *color;
+  if (tints) multiply(&texture.color, rule.color);
   texture.cut_below = rule.cut_below;
   if (!rule.alpha_cuts) texture.opacity = {};
   if (mask != nullptr) {

@@ -12,6 +12,7 @@
 
 #include "canopeer/base/atomic_file.h"
 #include "canopeer/import/meshes/gltf_container.h"
+#include "canopeer/import/meshes/gltf_extensions.h"
 #include "canopeer/import/meshes/gltf_numbers.h"
 
 namespace canopeer {
@@ -23,40 +24,14 @@ using nlohmann::json;
 constexpr int kFloat = 5126;
 constexpr const char* kTransform = "KHR_texture_transform";
 
-/// What a file may need and gets here: what is read, and what changes no surface and no base
-/// colour.
-constexpr std::array<std::string_view, 11> kKnown = {
-    "KHR_mesh_quantization", "KHR_texture_transform", "KHR_texture_basisu",  "EXT_texture_webp",
-    "EXT_texture_avif",      "MSFT_texture_dds",      "KHR_lights_punctual", "KHR_xmp_json_ld",
-    "KHR_animation_pointer", "KHR_technique_webgl",   "KHR_techniques_webgl"};
-
-struct Packing {
-  std::string_view extension;
-  std::string_view advice;
-};
-constexpr std::array kPackings = {
-    Packing{"KHR_draco_mesh_compression",
-            "packs its meshes with Draco; export it without compression, or unpack it: "
-            "gltf-transform copy in.glb out.glb"},
-    Packing{"EXT_meshopt_compression",
-            "packs its numbers with meshoptimizer; export it without compression, or unpack it: "
-            "gltf-transform copy in.glb out.glb"}};
-
-void check_needs(const json& file) {
-  for (const json& entry : file.value("extensionsRequired", json::array())) {
-    const std::string name = entry.get<std::string>();
-    const bool known = name.starts_with("KHR_materials_") ||
-                       std::find(kKnown.begin(), kKnown.end(), name) != kKnown.end();
-    if (known) continue;
-    for (const Packing& packing : kPackings) {
-      if (name == packing.extension) {
-        throw std::runtime_error("the glTF extension '" + name + "' " +
-                                 std::string(packing.advice));
-      }
-    }
-    throw std::runtime_error("it needs the glTF extension '" + name +
-                             "', which is not read; export it without");
-  }
+/// glTF 1.0 keeps by name what later versions number.
+bool is_first_version(const json& file) {
+  const auto meshes = file.find("meshes");
+  const json asset = file.value("asset", json::object());
+  const auto version = asset.find("version");
+  return (meshes != file.end() && meshes->is_object()) ||
+         (version != asset.end() && version->is_string() &&
+          version->get<std::string>().starts_with('1'));
 }
 
 /// Where a texture takes its coordinates from.
@@ -128,9 +103,11 @@ const std::vector<std::string>& Plainer::buffers() {
   if (buffers_) return *buffers_;
   buffers_.emplace();
   for (const json& buffer : file_.value("buffers", json::array())) {
-    const bool own = !buffer.contains("uri");
-    buffers_->push_back(
-        own ? binary_ : bytes_behind(buffer.at("uri").get<std::string>(), path_.parent_path()));
+    if (buffer.contains("uri")) {
+      buffers_->push_back(bytes_behind(buffer.at("uri").get<std::string>(), path_.parent_path()));
+    } else {
+      buffers_->push_back(buffers_->empty() ? binary_ : std::string());
+    }
   }
   return *buffers_;
 }
@@ -224,14 +201,7 @@ void Plainer::place_texture(json* primitive) {
 
 void Plainer::plain_primitive(json* primitive) {
   json& attributes = primitive->at("attributes");
-  const json extensions = primitive->value("extensions", json::object());
-  for (const Packing& packing : kPackings) {
-    if (!extensions.contains(packing.extension) || !attributes.contains("POSITION")) continue;
-    const json& positions = file_.at("accessors").at(attributes.at("POSITION").get<std::size_t>());
-    if (positions.contains("bufferView")) continue;  // it is there unpacked, too
-    throw std::runtime_error("the glTF extension '" + std::string(packing.extension) + "' " +
-                             std::string(packing.advice));
-  }
+  check_packing(file_, *primitive);
   for (const char* name : {"POSITION", "NORMAL", "TEXCOORD_0"}) plain_attribute(name, &attributes);
   place_texture(primitive);
   if (!attributes.contains("TEXCOORD_0")) drop_other_coordinates(&attributes);
@@ -271,10 +241,8 @@ std::string Plainer::say() {
   GltfContainer container = read_gltf_container(*bytes);
   binary_ = std::move(container.binary);
   file_ = json::parse(container.json);
-  const std::string version = file_.value("asset", json::object()).value("version", std::string());
-  const auto meshes = file_.find("meshes");
-  if (version.starts_with('1') || (meshes != file_.end() && meshes->is_object())) return {};
-  check_needs(file_);
+  if (is_first_version(file_)) return {};
+  check_needed_extensions(file_);
   const bool named_binary = path_.extension() == ".glb" || path_.extension() == ".GLB";
   changed_ = bytes->starts_with("glTF") != named_binary || !container.aligned;
   look_at_buffers();
