@@ -75,10 +75,9 @@ Expected<RobotFile> read_keys(const std::filesystem::path& path) {
   setup.T_world_root = read_pose(yaml.map("world_to_root"));
   if (yaml.has("camera_mounting")) file.T_frame_camera = read_pose(yaml.map("camera_mounting"));
 
-  if (setup.arm_joints.size() > kMaxArmJoints) {
-    yaml.complain("arm_joints", "expected at most " + std::to_string(kMaxArmJoints) + " joints");
-    setup.arm_joints.resize(kMaxArmJoints);
-  }
+  if (setup.arm_joints.size() > kMaxArmJoints)
+    yaml.complain("arm_joints", "expected at most " + std::to_string(kMaxArmJoints) +
+                                    " joints, found " + std::to_string(setup.arm_joints.size()));
   const std::size_t dof = setup.arm_joints.size();
   file.arm_acceleration_limits = yaml.numbers("arm_acceleration_limits_rad_s2",
                                               std::vector<double>(dof, 1.0), dof, {1e-3, 1e3});
@@ -96,6 +95,12 @@ Expected<RobotFile> read_keys(const std::filesystem::path& path) {
   YamlMap homes = yaml.map("home_states_rad");
   for (const std::string& name : homes.keys())
     setup.home[name] = to_configuration(homes.required_numbers(name, dof));
+  YamlMap standing = yaml.map("standing_joints_rad");
+  for (const std::string& name : standing.keys())
+    setup.standing[name] = standing.required_number(name);
+  YamlMap poses = yaml.map("standing_poses");
+  for (const std::string& name : poses.keys())
+    setup.standing_poses[name] = read_pose(poses.required_map(name));
   if (yaml.has("known_free")) setup.known_free = read_box(yaml.map("known_free"));
   for (YamlMap& side : yaml.maps("sides")) {
     setup.workspace.push_back(read_box(side.required_map("workspace")));

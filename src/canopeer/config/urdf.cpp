@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "canopeer/base/atomic_file.h"
+#include "canopeer/config/urdf_joints.h"
 #include "canopeer/config/xml_lines.h"
 
 namespace canopeer {
@@ -119,8 +120,7 @@ Expected<Link> to_link(const urdf::Link& from, const MeshSearch& search,
   return link;
 }
 
-Expected<Joint> to_joint(const urdf::Joint& from) {
-  if (from.mimic != nullptr) return fail("mimic joints are not supported");
+Expected<Joint> to_joint(const urdf::Joint& from, const tinyxml2::XMLElement& element) {
   Joint joint;
   joint.name = from.name;
   joint.parent = from.parent_link_name;
@@ -136,19 +136,19 @@ Expected<Joint> to_joint(const urdf::Joint& from) {
     case urdf::Joint::PRISMATIC:
       joint.type = JointType::kPrismatic;
       break;
+    case urdf::Joint::PLANAR:
+      joint.type = JointType::kPlanar;
+      break;
+    case urdf::Joint::FLOATING:
+      joint.type = JointType::kFloating;
+      return joint;
     default:
-      return fail("expected a fixed, revolute, continuous or prismatic joint");
+      return fail("unknown type of joint");
   }
   const Vec3 axis(from.axis.x, from.axis.y, from.axis.z);
   if (axis.norm() < 1e-9) return fail("the axis has no direction");
   joint.axis = axis.normalized();
-  if (from.limits != nullptr) {
-    if (from.type != urdf::Joint::CONTINUOUS) {
-      joint.lower = from.limits->lower;
-      joint.upper = from.limits->upper;
-    }
-    joint.velocity_limit = from.limits->velocity;
-  }
+  if (auto read = read_motion(element, joint); !read) return fail(read.error().message);
   return joint;
 }
 
@@ -161,7 +161,7 @@ Expected<RobotDescription> parse_urdf(const std::string& xml, const std::string&
     return fail(parsed.error().message);
 
   Captured captured;
-  const auto model = parse_quietly(xml, captured);
+  const auto model = parse_quietly(without_motions(document), captured);
   if (model == nullptr) {
     const auto& messages = captured.messages();
     return fail(place_of(messages, name, document) +
@@ -179,13 +179,20 @@ Expected<RobotDescription> parse_urdf(const std::string& xml, const std::string&
                   link_name + "': " + link.error().message);
     robot.links.push_back(std::move(*link));
   }
+  std::string wrong;  // all at once, so that a file is mended in one go
   for (const auto& [joint_name, from] : model->joints_) {
-    auto joint = to_joint(*from);
-    if (!joint)
-      return fail(xml_place(name, find_named(document, "joint", joint_name)) + ": joint '" +
-                  joint_name + "': " + joint.error().message);
+    const auto* element = find_named(document, "joint", joint_name);
+    auto joint = to_joint(*from, *element);
+    const std::string place = xml_place(name, element);
+    if (!joint) {
+      wrong += (wrong.empty() ? "" : "; ") + place + ": joint '" + joint_name +
+               "': " + joint.error().message;
+      continue;
+    }
+    joint->place = place;
     robot.joints.push_back(std::move(*joint));
   }
+  if (!wrong.empty()) return fail(wrong);
   return robot;
 }
 

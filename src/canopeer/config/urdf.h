@@ -11,10 +11,10 @@
 namespace canopeer {
 
 /// Reads a robot's links, joints, collision and visual shapes from a URDF file; meshes are looked
-/// for as config/robot_mesh.h says. A continuous joint has no limits here. Acceleration limits and
-/// disabled pairs are not in a URDF. Errors (malformed XML, xacro that needs expanding, a collision
-/// mesh that cannot be read, mimic joints, no single tree) name file and line; a visual mesh that
-/// cannot be read becomes a notice.
+/// for as config/robot_mesh.h says, limits and mimic joints as config/urdf_joints.h says.
+/// Acceleration limits and disabled pairs are not in a URDF. Errors (malformed XML, xacro that
+/// needs expanding, a collision mesh that cannot be read, joints without limits, no single tree)
+/// name file and line; a visual mesh that cannot be read becomes a notice.
 [[nodiscard]] Expected<RobotDescription> read_urdf(
     const std::filesystem::path& path, const std::vector<std::filesystem::path>& package_path = {});
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "canopeer/base/check.h"
 #include "canopeer/map/distance_field.h"
@@ -64,6 +65,7 @@ CollisionChecker::CollisionChecker(const RobotModel& robot, const TrolleyState& 
   double excess_m = options.sphere_excess_m;
   while (!collect_arm_links(excess_m)) excess_m *= 1.5;
   collect_obstacles(T_world_link);
+  add_motion_of_followers();
   collect_groups();
   collect_reaches();
 }
@@ -97,7 +99,8 @@ bool CollisionChecker::collect_arm_links(double sphere_excess_m) {
     }
     if (centres_.size() > kMaxSpheres) return false;
     arm_link.last_sphere = static_cast<int>(centres_.size());
-    measure_reach(arm_link);
+    arm_link.reach_m =
+        reach_of(arm_link.link, arm_link.bound.centre.norm() + arm_link.bound.radius_m);
     arm_links_.push_back(std::move(arm_link));
   }
   CANOPEER_CHECK(arm_links_.size() <= kMaxArmLinks, "too many links in the arm");
@@ -114,8 +117,10 @@ void CollisionChecker::collect_obstacles(const std::vector<Pose>& T_world_link) 
     const auto place = std::find(moving.begin(), moving.end(), link);
     if (place != moving.end()) obstacle.moving = static_cast<int>(place - moving.begin());
     for (std::size_t a = 0; a < arm_links_.size(); ++a) {
-      if (robot_->pair_checked(arm_links_[a].link, link) &&
-          robot_->arm_joints_before(arm_links_[a].link) > robot_->arm_joints_before(link))
+      const int arm_link = arm_links_[a].link;
+      const int nearer = robot_->arm_joints_before(link) - robot_->arm_joints_before(arm_link);
+      // Links that follow a joint, each beside the other, may hang on equally many.
+      if (robot_->pair_checked(arm_link, link) && (nearer < 0 || (nearer == 0 && link < arm_link)))
         obstacle.arm_links.push_back(static_cast<int>(a));
     }
     if (obstacle.arm_links.empty()) continue;
@@ -132,28 +137,42 @@ void CollisionChecker::collect_obstacles(const std::vector<Pose>& T_world_link) 
   }
 }
 
-// No point of the link is ever farther from joint i's axis than the way along the chain: the part
-// of the first hop at right angles to the axis, then the lengths of the others.
-void CollisionChecker::measure_reach(ArmLink& arm_link) const {
-  const double own = arm_link.bound.centre.norm() + arm_link.bound.radius_m;
-  const std::vector<RobotModel::Hop> hops = robot_->arm_hops(arm_link.link);
-  const int joints = robot_->arm_joints_before(arm_link.link);
-  arm_link.reach_m.assign(static_cast<std::size_t>(joints), 0.0);
-  for (int i = 0; i < joints; ++i) {
-    if (robot_->arm_joint_type(i) == JointType::kPrismatic) {
-      arm_link.reach_m[static_cast<std::size_t>(i)] = 1.0;  // metre for metre
-      continue;
-    }
+// No point of the link is ever farther from a joint's axis than the way along the chain: the part
+// of the first hop at right angles to the axis, then the lengths of the others. A joint that others
+// follow moves the link about each of their axes too. `own`: how far the link's points are from its
+// frame.
+std::vector<double> CollisionChecker::reach_of(int link, double own) const {
+  const std::vector<RobotModel::Hop> hops = robot_->arm_hops(link);
+  std::vector<double> reach_m(static_cast<std::size_t>(robot_->arm_joints_before(link)), 0.0);
+  for (auto from = hops.begin(); from != hops.end(); ++from) {
+    if (from->share == 0.0) continue;
     double reach = own;
-    bool first = true;
-    for (const RobotModel::Hop& hop : hops) {
-      if (hop.after_joint < i) continue;
-      const Vec3 sideways = hop.offset - hop.axis * hop.axis.dot(hop.offset);
-      reach += (first ? sideways.norm() : hop.offset.norm()) + hop.slide;
-      first = false;
+    for (auto hop = from; hop != hops.end(); ++hop) {
+      const Vec3 sideways = hop->offset - hop->axis * hop->axis.dot(hop->offset);
+      reach += (hop == from ? sideways.norm() : hop->offset.norm()) + hop->slide;
     }
-    arm_link.reach_m[static_cast<std::size_t>(i)] = reach;
+    if (from->slides) reach = 1.0;  // metre for metre
+    reach_m[static_cast<std::size_t>(from->joint)] += from->share * reach;
   }
+  return reach_m;
+}
+
+// What is not carried by the obstacle and does not carry it moves towards it by both their motions.
+void CollisionChecker::add_motion_of_followers() {
+  if (!robot_->has_followers()) return;
+  std::vector<ArmLink> with_both = arm_links_;
+  for (const Obstacle& obstacle : obstacles_) {
+    if (obstacle.moving < 0) continue;
+    const int link = robot_->moving_links()[static_cast<std::size_t>(obstacle.moving)];
+    const std::vector<double> reach_m = reach_of(link, obstacle.centre.norm() + obstacle.radius_m);
+    for (const int a : obstacle.arm_links) {
+      if (robot_->carried_by(arm_links_[a].link, link)) continue;
+      for (std::size_t j = 0; j < reach_m.size(); ++j)
+        with_both[a].reach_m[j] =
+            std::max(with_both[a].reach_m[j], arm_links_[a].reach_m[j] + reach_m[j]);
+    }
+  }
+  arm_links_ = std::move(with_both);
 }
 
 void CollisionChecker::set_map(const DistanceField* map) {

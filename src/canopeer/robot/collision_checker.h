@@ -101,7 +101,8 @@ class CollisionChecker {
 
   bool collect_arm_links(double sphere_excess_m);
   void collect_obstacles(const std::vector<Pose>& T_world_link);
-  void measure_reach(ArmLink& arm_link) const;
+  [[nodiscard]] std::vector<double> reach_of(int link, double own) const;
+  void add_motion_of_followers();
   void collect_groups();
   void collect_reaches();
   bool state_free_wide(const Configuration& q) const;

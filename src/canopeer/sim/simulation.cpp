@@ -81,7 +81,8 @@ class Simulation::SimArm : public Arm {
 
   Expected<double> start(const JointPath& path) override {
     const std::vector<Configuration>& waypoints = path.waypoints;
-    if (waypoints.empty() || joint_distance(waypoints.front(), state_.q) > 1e-6) {
+    const EndlessJoints& endless = state_.robot.endless();
+    if (waypoints.empty() || endless.distance(waypoints.front(), state_.q) > 1e-6) {
       return fail("a motion must begin where the arm is");
     }
     for (const Configuration& q : waypoints) {

@@ -10,10 +10,13 @@ double arm_reach_m(const RobotModel& robot) {
   double farthest = 0.0;
   std::vector<Pose> T_world_link;
   robot.link_poses(Configuration::Zero(robot.dof()), {}, T_world_link);
-  const int first = robot.moving_links().front();
-  double begin = (T_world_link[static_cast<std::size_t>(first)].translation() -
-                  robot.T_world_base({}).translation())
-                     .norm();
+  double begin = 0.0;
+  for (const int link : robot.moving_links()) {
+    if (robot.arm_hops(link).size() > 1) continue;  // it hangs on another that moves
+    begin = std::max(begin, (T_world_link[static_cast<std::size_t>(link)].translation() -
+                             robot.T_world_base({}).translation())
+                                .norm());
+  }
   if (robot.arm_joint_type(0) == JointType::kPrismatic)
     begin += std::max(std::abs(robot.limits().lower[0]), std::abs(robot.limits().upper[0]));
   for (const int link : robot.moving_links()) {
