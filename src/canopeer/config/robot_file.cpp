@@ -49,6 +49,7 @@ struct RobotFile {
   std::filesystem::path srdf;  // empty: none
   std::vector<std::filesystem::path> package_path;
   RobotSetup setup;
+  std::vector<double> arm_velocity_limits;  // empty: the URDF's
   std::vector<double> arm_acceleration_limits;
   double trolley_acceleration_limit = 0.0;
   std::vector<double> travel_limits;   // empty: the URDF's
@@ -79,6 +80,8 @@ Expected<RobotFile> read_keys(const std::filesystem::path& path) {
     yaml.complain("arm_joints", "expected at most " + std::to_string(kMaxArmJoints) +
                                     " joints, found " + std::to_string(setup.arm_joints.size()));
   const std::size_t dof = setup.arm_joints.size();
+  if (yaml.has("arm_velocity_limits_rad_s"))
+    file.arm_velocity_limits = yaml.numbers("arm_velocity_limits_rad_s", {}, dof, {1e-4, 1e3});
   file.arm_acceleration_limits = yaml.numbers("arm_acceleration_limits_rad_s2",
                                               std::vector<double>(dof, 1.0), dof, {1e-3, 1e3});
   file.trolley_acceleration_limit =
@@ -110,14 +113,17 @@ Expected<RobotFile> read_keys(const std::filesystem::path& path) {
   return file;
 }
 
-void set_acceleration_limits(const RobotFile& file, RobotDescription& robot) {
+void set_arm_and_trolley_limits(const RobotFile& file, RobotDescription& robot) {
   for (Joint& joint : robot.joints) {
     const auto& arm = file.setup.arm_joints;
     const auto it = std::find(arm.begin(), arm.end(), joint.name);
-    if (it != arm.end())
+    if (it != arm.end()) {
       joint.acceleration_limit = file.arm_acceleration_limits[it - arm.begin()];
-    else if (joint.name == file.setup.travel_joint || joint.name == file.setup.lift_joint)
+      if (!file.arm_velocity_limits.empty())
+        joint.velocity_limit = file.arm_velocity_limits[it - arm.begin()];
+    } else if (joint.name == file.setup.travel_joint || joint.name == file.setup.lift_joint) {
       joint.acceleration_limit = file.trolley_acceleration_limit;
+    }
   }
 }
 
@@ -160,7 +166,7 @@ Expected<RobotModel> load_robot(const std::filesystem::path& path,
   if (!file->srdf.empty()) {
     if (auto read = read_srdf(file->srdf, *robot); !read) return fail(read.error().message);
   }
-  set_acceleration_limits(*file, *robot);
+  set_arm_and_trolley_limits(*file, *robot);
   set_travel_limits(*file, *robot);
   const auto mounting = T_frame_camera ? T_frame_camera : file->T_frame_camera;
   if (mounting && has_link(*robot, file->setup.camera_frame)) {

@@ -100,16 +100,31 @@ Expected<CollisionShape> to_shape(const urdf::GeometrySharedPtr& geometry, const
   return shape;
 }
 
+/// Some write a box of no size where there is nothing to run into.
+bool is_nothing(const urdf::GeometrySharedPtr& geometry) {
+  const auto* const box = dynamic_cast<const urdf::Box*>(geometry.get());
+  const auto* const sphere = dynamic_cast<const urdf::Sphere*>(geometry.get());
+  const auto* const cylinder = dynamic_cast<const urdf::Cylinder*>(geometry.get());
+  return (box != nullptr && box->dim.x == 0.0 && box->dim.y == 0.0 && box->dim.z == 0.0) ||
+         (sphere != nullptr && sphere->radius == 0.0) ||
+         (cylinder != nullptr && cylinder->radius == 0.0 && cylinder->length == 0.0);
+}
+
 Expected<Link> to_link(const urdf::Link& from, const MeshSearch& search,
                        std::vector<std::string>& notices) {
   Link link;
   link.name = from.name;
   for (const auto& collision : from.collision_array) {
+    if (is_nothing(collision->geometry)) {
+      notices.push_back("link '" + link.name + "', collision: a shape of no size is left out");
+      continue;
+    }
     auto shape = to_shape(collision->geometry, collision->origin, search);
     if (!shape) return fail(shape.error().message);
     link.collision.push_back(std::move(*shape));
   }
   for (const auto& visual : from.visual_array) {
+    if (is_nothing(visual->geometry)) continue;
     auto shape = to_shape(visual->geometry, visual->origin, search);
     if (shape) {
       link.visual.push_back(std::move(*shape));

@@ -59,7 +59,8 @@ TEST(FieldContinuous, WithoutAVelocityItIsRefused) {
   for (const char* limit : {"", "<limit effort='9'/>", "<limit velocity='0'/>"}) {
     EXPECT_EQ(
         with_j6(limit).error(),
-        "robot.yaml: small.urdf:15: joint 'j6' needs finite limits; missing: velocity above 0");
+        "robot.yaml: small.urdf:15: joint 'j6' needs finite limits; missing: velocity above 0 (or "
+        "arm_velocity_limits_rad_s in the robot file)");
   }
 }
 

@@ -64,9 +64,11 @@ TEST(FieldLimits, WhatIsWrongWithALimitIsSaidWithItsLine) {
   EXPECT_EQ(with_limit("<limit lower='1' upper='-1' velocity='1'/>").error(),
             at + ": expected lower <= upper, both within 1e4, found 1 and -1");
   EXPECT_EQ(with_limit("<limit lower='-1' upper='1' velocity='0'/>").error(),
-            at + " needs finite limits; missing: velocity above 0");
+            at + " needs finite limits; missing: velocity above 0 (or "
+                 "arm_velocity_limits_rad_s in the robot file)");
   EXPECT_EQ(with_limit("<limit lower='-1' upper='1' effort='3'/>").error(),
-            at + " needs finite limits; missing: velocity above 0");
+            at + " needs finite limits; missing: velocity above 0 (or "
+                 "arm_velocity_limits_rad_s in the robot file)");
   EXPECT_EQ(with_limit("<limit velocity='1' effort='3'/>").error(),
             at + " cannot be moved: its <limit> has neither lower nor upper");
   EXPECT_EQ(with_limit("<limit upper='1' velocity='1'/>").error(),
@@ -77,6 +79,21 @@ TEST(FieldLimits, WhatIsWrongWithALimitIsSaidWithItsLine) {
             "small.urdf:15: joint 'j6': <limit lower=\"-1,5\">: expected a number");
   EXPECT_EQ(with_limit("<limit lower='0' upper='1e9' velocity='1'/>").error(),
             at + ": expected lower <= upper, both within 1e4, found 0 and 1e+09");
+}
+
+TEST(FieldLimits, TheRobotFileMaySayTheVelocities) {
+  SmallArm arm = with_limit("<limit lower='-1' upper='1' velocity='0'/>");
+  arm.add("", "arm_velocity_limits_rad_s: [1, 1, 1, 1, 1, 0.5]\n");
+  EXPECT_EQ(arm.model().limits().velocity[0], 1.0);
+  EXPECT_EQ(arm.model().limits().velocity[5], 0.5);
+}
+
+TEST(FieldLimits, AShapeOfNoSizeIsLeftOutAndSaid) {
+  SmallArm arm;
+  arm.replace("<box size='0.06 0.06 0.06'/>", "<box size='0 0 0'/>");
+  EXPECT_EQ(arm.notices(), "link 'waist', collision: a shape of no size is left out");
+  arm.replace("<box size='0 0 0'/>", "<box size='0 0 -1'/>");
+  EXPECT_EQ(arm.error(), "small.urdf:3: link 'waist': a shape without size");
 }
 
 TEST(FieldLimits, AnEffortIsNotAskedFor) {

@@ -34,7 +34,9 @@ class DriverLimits {
       if (!there) missing += std::string(missing.empty() ? "" : ", ") + what;
     };
     want(endless || (number(joint_.lower) && number(joint_.upper)), "lower and upper");
-    want(number(joint_.velocity_limit) && joint_.velocity_limit > 0.0, "velocity above 0");
+    want(number(joint_.velocity_limit) && joint_.velocity_limit > 0.0,
+         in_arm_ ? "velocity above 0 (or arm_velocity_limits_rad_s in the robot file)"
+                 : "velocity above 0");
     want(number(joint_.acceleration_limit) && joint_.acceleration_limit > 0.0,
          "acceleration above 0");
     if (!missing.empty()) {
