@@ -134,6 +134,7 @@ void set_travel_limits(const RobotFile& file, RobotDescription& robot) {
     if (joint.name != file.setup.travel_joint) continue;
     joint.lower = file.travel_limits[0];
     joint.upper = file.travel_limits[1];
+    joint.flaw.clear();
   }
 }
 
