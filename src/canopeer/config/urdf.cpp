@@ -156,13 +156,15 @@ Expected<Joint> to_joint(const urdf::Joint& from, const tinyxml2::XMLElement& el
       break;
     case urdf::Joint::FLOATING:
       joint.type = JointType::kFloating;
-      return joint;
+      break;
     default:
       return fail("unknown type of joint");
   }
   const Vec3 axis(from.axis.x, from.axis.y, from.axis.z);
-  if (axis.norm() < 1e-9) return fail("the axis has no direction");
-  joint.axis = axis.normalized();
+  if (joint.type != JointType::kFloating) {  // that has none
+    if (axis.norm() < 1e-9) return fail("the axis has no direction");
+    joint.axis = axis.normalized();
+  }
   if (auto read = read_motion(element, joint); !read) return fail(read.error().message);
   return joint;
 }

@@ -62,6 +62,27 @@ TEST(FieldMimic, AFollowerThatWouldLeaveItsLimitsIsHeldAndSaid) {
       "... 1: it stands at -0.1");
 }
 
+TEST(FieldMimic, LimitsOfAFollowerThatAreOneAreNone) {
+  SmallArm arm = with_gripper("standing_joints_rad: {g1: 0.04}\n");
+  arm.replace("lower='-1' upper='1' velocity='1' effort='1'", "lower='0' upper='0' velocity='0'");
+  EXPECT_EQ(arm.notices(), "");
+  const RobotModel robot = arm.model();
+  const Configuration home = robot.home("side_1");
+  EXPECT_TRUE((pose_of(robot, "f2", home).inverse() * pose_of(robot, "f3", home))
+                  .linear()
+                  .isApprox(Eigen::AngleAxisd(-0.3, Vec3::UnitZ()).toRotationMatrix(), 1e-9));
+}
+
+TEST(FieldMimic, AFloatingJointCannotFollow) {
+  SmallArm arm;
+  arm.add("<link name='f'/>\n" +
+          joint_line("ball", "floating", "tool", "f", "0 0 0", "0 0 1", mimic("j1")));
+  EXPECT_EQ(
+      arm.error(),
+      "robot.yaml: small.urdf:18: joint 'ball' mimics 'j1', but only revolute, continuous and "
+      "prismatic joints can");
+}
+
 TEST(FieldMimic, AllThatIsWrongIsNamedAtOnce) {
   const std::string limit = "<limit lower='-1' upper='1' velocity='1'/>";
   SmallArm arm;

@@ -96,6 +96,16 @@ TEST(FieldStanding, TheRobotFileSaysWhereItStands) {
       "-0.6");
 }
 
+TEST(FieldStanding, WhereTheFileGivesNoLimitsItStandsAnywhere) {
+  SmallArm arm = with_knee("standing_joints_rad: {knee: -1.5}\n");
+  arm.replace("<limit lower='-2.6' upper='-0.6' velocity='1'/>", "<limit velocity='1'/>");
+  EXPECT_EQ(arm.notices(), "");
+  const RobotModel robot = arm.model();
+  EXPECT_TRUE(pose_of(robot, "leg", robot.home("side_1"))
+                  .linear()
+                  .isApprox(Eigen::AngleAxisd(-1.5, Vec3::UnitY()).toRotationMatrix(), 1e-12));
+}
+
 TEST(FieldStanding, AJointOfTheChainThatIsLeftOutIsSaid) {
   SmallArm arm;
   arm.replace("[j1, j2, j3, j4, j5, j6]", "[j1, j2, j3, j4, j5]");

@@ -129,8 +129,10 @@ class DriveFinder {
     }
   }
 
-  /// `position` within the joint's limits; what is cut off is said.
+  /// `position` within the joint's limits; what is cut off is said. Of a joint that follows
+  /// another, limits that are one are none: exporters write 0 and 0.
   double held(const Joint& joint, double position, const std::string& how) {
+    if (!joint.mimics.empty() && joint.lower == joint.upper) return position;
     if (joint.lower > joint.upper) {
       notice(joint_title(joint) + ": its lower limit is above its upper one; it stands at " +
              exact_text(position));
@@ -158,8 +160,9 @@ class DriveFinder {
       return;
     }
     own.offset = it->second;
-    if (own.offset >= joint.lower - kLimitTolerance && own.offset <= joint.upper + kLimitTolerance)
-      return;
+    const bool within =
+        own.offset >= joint.lower - kLimitTolerance && own.offset <= joint.upper + kLimitTolerance;
+    if (within || !joint.flaw.empty()) return;  // a flaw: the file gives no limits
     problem(joint_title(joint) + ": standing at " + exact_text(own.offset) +
             " is outside its limits " + exact_text(joint.lower) + " ... " +
             exact_text(joint.upper));
