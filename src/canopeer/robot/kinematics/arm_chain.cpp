@@ -170,13 +170,14 @@ void ArmChain::follow_narrow(const Motions& motions, const Pose& T_root, Pose* T
 }
 
 void ArmChain::poses(const Configuration& q, const Pose& T_root, Pose* T) const {
-  alignas(32) double angles[kAngles] = {};
+  alignas(32) double angles[kAngles];
   alignas(32) double sines[kAngles];
   alignas(32) double cosines[kAngles];
   int drives = static_cast<int>(q.size());
   for (int i = 0; i < drives; ++i) angles[i] = q[i];
   for (const Follower& follower : followers_)
     angles[drives++] = follower.multiplier * q[follower.arm_joint] + follower.offset;
+  for (int i = drives; i % 4 != 0; ++i) angles[i] = 0.0;
   sin_cos(angles, drives, sines, cosines);
   if (has_wide_registers()) {
     follow_wide({angles, sines, cosines}, T_root, T);

@@ -13,7 +13,7 @@ namespace canopeer {
 class ArmChain {
  public:
   /// Most joints that may follow arm joints.
-  static constexpr int kMaxFollowers = 10;
+  static constexpr int kMaxFollowers = 22;
 
   /// `dof`: how many entries a configuration has.
   explicit ArmChain(int dof = 0) : dof_(dof) {}
