@@ -5,7 +5,7 @@
 namespace canopeer {
 namespace {
 
-constexpr std::size_t kNamesShown = 8;
+constexpr std::size_t kLinksShown = 8;
 
 /// The links that hang on the first arm joint.
 std::vector<const Link*> moving_links(const RobotDescription& robot,
@@ -47,10 +47,10 @@ std::string links_without_shapes(const RobotDescription& robot,
   }
   if (seen_only.empty()) return {};
   std::string names;
-  for (std::size_t i = 0; i < seen_only.size() && i < kNamesShown; ++i)
+  for (std::size_t i = 0; i < seen_only.size() && i < kLinksShown; ++i)
     names += (i == 0 ? "" : ", ") + seen_only[i];
-  if (seen_only.size() > kNamesShown)
-    names += " and " + std::to_string(seen_only.size() - kNamesShown) + " more";
+  if (seen_only.size() > kLinksShown)
+    names += " and " + std::to_string(seen_only.size() - kLinksShown) + " more";
   return "no collision shape, so never checked for contact: " + names + remedy;
 }
 

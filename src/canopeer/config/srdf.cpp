@@ -14,7 +14,7 @@ namespace {
 
 using Pair = std::pair<std::string, std::string>;
 
-constexpr std::size_t kNamesShown = 8;
+constexpr std::size_t kUnknownShown = 8;
 
 /// What the elements of an SRDF say of a robot's links; those it does not have are kept apart.
 class Reader {
@@ -56,11 +56,11 @@ class Reader {
     std::string text = first_unknown_ + ": the robot has no link";
     std::size_t shown = 0;
     for (const std::string& link : unknown_) {
-      if (shown++ == kNamesShown) break;
+      if (shown++ == kUnknownShown) break;
       text += (shown == 1 ? " '" : ", '") + link + "'";
     }
-    if (unknown_.size() > kNamesShown)
-      text += " and " + std::to_string(unknown_.size() - kNamesShown) + " more";
+    if (unknown_.size() > kUnknownShown)
+      text += " and " + std::to_string(unknown_.size() - kUnknownShown) + " more";
     return text + "; what is said of them is left out";
   }
   [[nodiscard]] bool mostly_unknown() const { return unknown_.size() > named_.size(); }

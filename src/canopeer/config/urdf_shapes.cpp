@@ -22,7 +22,7 @@ constexpr double kLargestMeshM = 20.0;
 constexpr double kLargestM = 1e4;
 
 /// Names shown of what is missing for one reason.
-constexpr std::size_t kNamesShown = 40;
+constexpr std::size_t kMeshesShown = 40;
 
 /// The numbers an attribute holds; empty: another count than `count`, no numbers, or huge ones.
 std::vector<double> numbers_of(const tinyxml2::XMLElement& element, const char* attribute,
@@ -177,7 +177,7 @@ void UrdfShapes::read_mesh(const tinyxml2::XMLElement& mesh, const Pose& T_link_
   }
   if (std::find(same->meshes.begin(), same->meshes.end(), name) != same->meshes.end()) return;
   same->meshes.emplace_back(name);
-  if (same->meshes.size() > kNamesShown) return;
+  if (same->meshes.size() > kMeshesShown) return;
   same->further.push_back(std::to_string(mesh.GetLineNum()) + " '" + name + "'" +
                           (trouble.near.empty() ? "" : " (there is " + trouble.near + ")"));
 }
@@ -191,7 +191,7 @@ std::vector<std::string> UrdfShapes::troubles() const {
       line += "; " + std::to_string(trouble.meshes.size() - 1) + " more, in line ";
       for (std::size_t i = 0; i < trouble.further.size(); ++i)
         line += (i == 0 ? "" : ", ") + trouble.further[i];
-      if (trouble.meshes.size() > kNamesShown) line += ", …";
+      if (trouble.meshes.size() > kMeshesShown) line += ", …";
     }
     lines.push_back(line);
   }
