@@ -46,7 +46,7 @@ std::vector<Configuration> random_configurations(const RobotModel& robot, int co
   for (int k = 0; k < count; ++k) {
     Configuration q(robot.dof());
     for (int i = 0; i < q.size(); ++i)
-      q[i] = rng.uniform(robot.limits().lower[i], robot.limits().upper[i]);
+      q[i] = rng.uniform(robot.span().lower[i], robot.span().upper[i]);
     all.push_back(q);
   }
   return all;

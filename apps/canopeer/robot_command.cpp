@@ -46,11 +46,15 @@ void print_joints(const RobotModel& robot, const ArmIk& ik) {
     std::printf("  notice: %s\n", notice.c_str());
   for (int i = 0; i < robot.dof(); ++i) {
     const bool slide = robot.arm_joint_type(i) == JointType::kPrismatic;
-    std::printf("  %-24s %8.3f … %7.3f %s, %.2f %s/s, %.2f %s/s²\n",
-                robot.setup().arm_joints[static_cast<std::size_t>(i)].c_str(),
-                robot.limits().lower[i], robot.limits().upper[i], slide ? "m" : "rad",
-                robot.limits().velocity[i], slide ? "m" : "rad", robot.limits().acceleration[i],
-                slide ? "m" : "rad");
+    const char* const unit = slide ? "m" : "rad";
+    std::printf("  %-24s ", robot.setup().arm_joints[static_cast<std::size_t>(i)].c_str());
+    if (robot.endless()[i]) {
+      std::printf("turns without end");
+    } else {
+      std::printf("%8.3f … %7.3f %s", robot.limits().lower[i], robot.limits().upper[i], unit);
+    }
+    std::printf(", %.2f %s/s, %.2f %s/s²\n", robot.limits().velocity[i], unit,
+                robot.limits().acceleration[i], unit);
   }
 }
 
@@ -299,7 +303,7 @@ void robot_check(const RobotCheckArguments& arguments) {
   fs::create_directories(out, code);
   if (code) stop_with(kFailed, {out.string() + ": cannot make the directory: " + code.message()});
   const Configuration q = robot.setup().home.empty()
-                              ? Configuration((robot.limits().lower + robot.limits().upper) / 2.0)
+                              ? Configuration((robot.span().lower + robot.span().upper) / 2.0)
                               : robot.setup().home.begin()->second;
   for (const bool spheres : {false, true})
     value_or_stop(write_png(out / (spheres ? "spheres.png" : "robot.png"),

@@ -109,15 +109,16 @@ TEST(Urdf, KnowsXacroInNumbersToo) {
 
 TEST(RobotFile, NamesEveryJointThatLacksLimitsAndTheOneAHomeStateBreaks) {
   std::string urdf = shipped("ur5e_trolley.urdf");
-  for (const std::string joint : {"elbow_joint", "wrist_2_joint"})
-    urdf = replaced(urdf, "\"" + joint + "\" type=\"revolute\"",
-                    "\"" + joint + "\" type=\"continuous\"");
+  for (const std::string joint : {"elbow_joint", "wrist_2_joint"}) {
+    const std::string attribute = "velocity=";
+    urdf.replace(urdf.find(attribute, urdf.find("\"" + joint + "\"")), attribute.size(), "speed=");
+  }
   const std::string message = message_with("ur5e_trolley.urdf", urdf);
   EXPECT_NE(message.find("'elbow_joint' needs finite limits"), std::string::npos) << message;
   EXPECT_NE(message.find("'wrist_2_joint' needs finite limits"), std::string::npos) << message;
   EXPECT_EQ(yaml_message("side_1: [0.0, -0.7853981633974483, 1.5", "side_1: [0.0, -0.78, 9.5"),
-            "robot.yaml: home state 'side_1': joint 'elbow_joint' at 9.570796 is outside its "
-            "limits -3.141593 ... 3.141593");
+            "robot.yaml: home state 'side_1': joint 'elbow_joint' at 9.570796326794897 is "
+            "outside its limits -3.141592653589793 ... 3.141592653589793");
 }
 
 TEST(Urdf, PassesOnWhatTheParserDislikesWithTheLine) {

@@ -20,7 +20,7 @@ inline const RobotModel& shipped_robot() {
 inline Configuration random_configuration(Rng& random, const RobotModel& robot) {
   Configuration q(robot.dof());
   for (int i = 0; i < robot.dof(); ++i)
-    q[i] = random.uniform(robot.limits().lower[i], robot.limits().upper[i]);
+    q[i] = random.uniform(robot.span().lower[i], robot.span().upper[i]);
   return q;
 }
 

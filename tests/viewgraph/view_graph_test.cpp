@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
+#include <numbers>
 
 #include "canopeer/base/rng.h"
 #include "canopeer/geometry/state_archive.h"
@@ -64,6 +66,28 @@ TEST(ViewGraph, NearestAreThoseOfBruteForce) {
       EXPECT_NE(neighbor.id, NodeId{18});
     }
   }
+}
+
+TEST(ViewGraph, JointsThatTurnWithoutEndCountTheShorterWayRound) {
+  JointLimits limits;
+  limits.lower = Configuration::Constant(6, -7.0);
+  limits.upper = Configuration::Constant(6, 7.0);
+  limits.lower[2] = -std::numeric_limits<double>::infinity();
+  limits.upper[2] = std::numeric_limits<double>::infinity();
+  ViewGraph graph;
+  graph.set_endless(EndlessJoints(limits));
+  Configuration q = Configuration::Zero(6);
+  q[2] = 3.0;
+  const NodeId a = graph.add(view_at(q));
+  q[2] = -3.0;
+  const NodeId b = graph.add(view_at(q));
+  EXPECT_NEAR(graph.distance_rad(a, b), 2.0 * std::numbers::pi - 6.0, 1e-12);
+  q[2] = 3.1 + 8.0 * std::numbers::pi;
+  const auto near = graph.nearest(q, 5, 0.3, a);
+  ASSERT_EQ(near.size(), 1U);
+  EXPECT_EQ(near[0].id, b);
+  EXPECT_NEAR(near[0].distance_rad, 2.0 * std::numbers::pi - 6.1, 1e-9);
+  EXPECT_TRUE(graph.nearest(q, 5, 0.1, a).empty());
 }
 
 TEST(ViewGraph, SimilarMeansCloseAndLookingTheSameWay) {

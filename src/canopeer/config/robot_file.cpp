@@ -53,6 +53,7 @@ struct RobotFile {
   std::vector<std::filesystem::path> package_path;
   bool visual_for_collision = false;
   RobotSetup setup;
+  std::vector<double> arm_velocity_limits;  // empty: the URDF's
   std::vector<double> arm_acceleration_limits;
   double trolley_acceleration_limit = 0.0;
   std::vector<double> travel_limits;   // empty: the URDF's
@@ -81,11 +82,12 @@ Expected<RobotFile> read_keys(const std::filesystem::path& path) {
   setup.T_world_root = read_pose(yaml.map("world_to_root"));
   if (yaml.has("camera_mounting")) file.T_frame_camera = read_pose(yaml.map("camera_mounting"));
 
-  if (setup.arm_joints.size() > kMaxArmJoints) {
-    yaml.complain("arm_joints", "expected at most " + std::to_string(kMaxArmJoints) + " joints");
-    setup.arm_joints.resize(kMaxArmJoints);
-  }
+  if (setup.arm_joints.size() > kMaxArmJoints)
+    yaml.complain("arm_joints", "expected at most " + std::to_string(kMaxArmJoints) +
+                                    " joints, found " + std::to_string(setup.arm_joints.size()));
   const std::size_t dof = setup.arm_joints.size();
+  if (yaml.has("arm_velocity_limits_rad_s"))
+    file.arm_velocity_limits = yaml.numbers("arm_velocity_limits_rad_s", {}, dof, {1e-4, 1e3});
   file.arm_acceleration_limits = yaml.numbers("arm_acceleration_limits_rad_s2",
                                               std::vector<double>(dof, 1.0), dof, {1e-3, 1e3});
   file.trolley_acceleration_limit =
@@ -102,6 +104,12 @@ Expected<RobotFile> read_keys(const std::filesystem::path& path) {
   YamlMap homes = yaml.map("home_states_rad");
   for (const std::string& name : homes.keys())
     setup.home[name] = to_configuration(homes.required_numbers(name, dof));
+  YamlMap standing = yaml.map("standing_joints_rad");
+  for (const std::string& name : standing.keys())
+    setup.standing[name] = standing.required_number(name);
+  YamlMap poses = yaml.map("standing_poses");
+  for (const std::string& name : poses.keys())
+    setup.standing_poses[name] = read_pose(poses.required_map(name));
   if (yaml.has("known_free")) setup.known_free = read_box(yaml.map("known_free"));
   for (YamlMap& side : yaml.maps("sides")) {
     setup.workspace.push_back(read_box(side.required_map("workspace")));
@@ -111,14 +119,17 @@ Expected<RobotFile> read_keys(const std::filesystem::path& path) {
   return file;
 }
 
-void set_acceleration_limits(const RobotFile& file, RobotDescription& robot) {
+void set_arm_and_trolley_limits(const RobotFile& file, RobotDescription& robot) {
   for (Joint& joint : robot.joints) {
     const auto& arm = file.setup.arm_joints;
     const auto it = std::find(arm.begin(), arm.end(), joint.name);
-    if (it != arm.end())
+    if (it != arm.end()) {
       joint.acceleration_limit = file.arm_acceleration_limits[it - arm.begin()];
-    else if (joint.name == file.setup.travel_joint || joint.name == file.setup.lift_joint)
+      if (!file.arm_velocity_limits.empty())
+        joint.velocity_limit = file.arm_velocity_limits[it - arm.begin()];
+    } else if (joint.name == file.setup.travel_joint || joint.name == file.setup.lift_joint) {
       joint.acceleration_limit = file.trolley_acceleration_limit;
+    }
   }
 }
 
@@ -129,6 +140,7 @@ void set_travel_limits(const RobotFile& file, RobotDescription& robot) {
     if (joint.name != file.setup.travel_joint) continue;
     joint.lower = file.travel_limits[0];
     joint.upper = file.travel_limits[1];
+    joint.flaw.clear();
   }
 }
 
@@ -182,7 +194,7 @@ Expected<RobotModel> load_robot(const std::filesystem::path& path,
   if (const std::string unchecked = links_without_shapes(*robot, file->setup.arm_joints);
       !unchecked.empty())
     robot->notices.push_back(unchecked);
-  set_acceleration_limits(*file, *robot);
+  set_arm_and_trolley_limits(*file, *robot);
   set_travel_limits(*file, *robot);
   const auto mounting = T_frame_camera ? T_frame_camera : file->T_frame_camera;
   if (mounting && has_link(*robot, file->setup.camera_frame)) {

@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "canopeer/base/atomic_file.h"
+#include "canopeer/config/urdf_joints.h"
 #include "canopeer/config/urdf_shapes.h"
 #include "canopeer/config/xml_lines.h"
 
@@ -72,8 +73,8 @@ Pose to_pose(const urdf::Pose& pose) {
   return T;
 }
 
-/// The document without what is read elsewhere or not used at all: one odd material, inertia or
-/// shape would make urdfdom refuse the whole robot.
+/// The document without what is read elsewhere or not used at all: one odd material, inertia,
+/// shape or limit would make urdfdom refuse the whole robot.
 std::string skeleton_of(const tinyxml2::XMLDocument& document) {
   tinyxml2::XMLDocument copy;
   document.DeepCopy(&copy);
@@ -86,6 +87,7 @@ std::string skeleton_of(const tinyxml2::XMLDocument& document) {
        link = link->NextSiblingElement("link")) {
     for (const char* tag : {"collision", "visual", "inertial"}) strip(link, tag);
   }
+  strip_motions(copy);
   tinyxml2::XMLPrinter printer;
   copy.Print(&printer);
   return printer.CStr();
@@ -122,8 +124,7 @@ Expected<void> read_links(const urdf::ModelInterface& model, const tinyxml2::XML
   return {};
 }
 
-Expected<Joint> to_joint(const urdf::Joint& from) {
-  if (from.mimic != nullptr) return fail("mimic joints are not supported");
+Expected<Joint> to_joint(const urdf::Joint& from, const tinyxml2::XMLElement& element) {
   Joint joint;
   joint.name = from.name;
   joint.parent = from.parent_link_name;
@@ -139,19 +140,21 @@ Expected<Joint> to_joint(const urdf::Joint& from) {
     case urdf::Joint::PRISMATIC:
       joint.type = JointType::kPrismatic;
       break;
+    case urdf::Joint::PLANAR:
+      joint.type = JointType::kPlanar;
+      break;
+    case urdf::Joint::FLOATING:
+      joint.type = JointType::kFloating;
+      break;
     default:
-      return fail("expected a fixed, revolute, continuous or prismatic joint");
+      return fail("unknown type of joint");
   }
   const Vec3 axis(from.axis.x, from.axis.y, from.axis.z);
-  if (axis.norm() < 1e-9) return fail("the axis has no direction");
-  joint.axis = axis.normalized();
-  if (from.limits != nullptr) {
-    if (from.type != urdf::Joint::CONTINUOUS) {
-      joint.lower = from.limits->lower;
-      joint.upper = from.limits->upper;
-    }
-    joint.velocity_limit = from.limits->velocity;
+  if (joint.type != JointType::kFloating) {  // that has none
+    if (axis.norm() < 1e-9) return fail("the axis has no direction");
+    joint.axis = axis.normalized();
   }
+  if (auto read = read_motion(element, joint); !read) return fail(read.error().message);
   return joint;
 }
 
@@ -177,13 +180,20 @@ Expected<RobotDescription> parse_urdf(const std::string& xml, const std::string&
   }
   if (auto links = read_links(*model, document, name, options, robot); !links)
     return fail(links.error().message);
+  std::string wrong;  // all at once, so that a file is mended in one go
   for (const auto& [joint_name, from] : model->joints_) {
-    auto joint = to_joint(*from);
-    if (!joint)
-      return fail(xml_place(name, find_named(document, "joint", joint_name)) + ": joint '" +
-                  joint_name + "': " + joint.error().message);
+    const auto* element = find_named(document, "joint", joint_name);
+    auto joint = to_joint(*from, *element);
+    const std::string place = xml_place(name, element);
+    if (!joint) {
+      wrong += (wrong.empty() ? "" : "; ") + place + ": joint '" + joint_name +
+               "': " + joint.error().message;
+      continue;
+    }
+    joint->place = place;
     robot.joints.push_back(std::move(*joint));
   }
+  if (!wrong.empty()) return fail(wrong);
   return robot;
 }
 

@@ -18,10 +18,11 @@ struct UrdfOptions {
 };
 
 /// Reads a robot's links, joints, collision and visual shapes from a URDF file; meshes are looked
-/// for as config/robot_mesh.h says. A continuous joint has no limits here. Acceleration limits and
-/// disabled pairs are not in a URDF. Errors (malformed XML, xacro that needs expanding, collision
-/// meshes that cannot be read, all in one line, mimic joints, no single tree) name file and line;
-/// visual meshes that cannot be read become notices.
+/// for as config/robot_mesh.h says, limits and mimic joints as config/urdf_joints.h says.
+/// Acceleration limits and disabled pairs are not in a URDF. Errors (malformed XML, xacro that
+/// needs expanding, collision meshes that cannot be read, joints without limits, no single tree)
+/// name file and line, all that is wrong with links or with joints in one; visual meshes that
+/// cannot be read become notices.
 [[nodiscard]] Expected<RobotDescription> read_urdf(
     const std::filesystem::path& path, const std::vector<std::filesystem::path>& package_path = {},
     bool visual_for_collision = false);

@@ -38,12 +38,14 @@ struct MotionOutcome {
 class Arm {
  public:
   virtual ~Arm() = default;
-  /// Joint positions now, rad.
+  /// Joint positions now, rad. Of joints that turn without end (RobotModel::endless) those modulo
+  /// whole turns are as good.
   [[nodiscard]] virtual Configuration configuration() const = 0;
   /// Starts a motion along a path that begins where the arm is, and stands still only where the
-  /// path says so: this path, arcs included, is what was checked for collisions, so no other will
-  /// do (PathMotion times it and gives trajectory points at any rate). Returns how long it will
-  /// take, s. The error says what the arm refused.
+  /// path says so. This path, arcs included, is what was checked for collisions, so no other will
+  /// do (PathMotion times it and gives trajectory points at any rate). Joints that turn without end
+  /// run on from its first values beyond ±π: how far and which way they turn. Returns how long it
+  /// will take, s. The error says what the arm refused.
   [[nodiscard]] virtual Expected<double> start(const JointPath& path) = 0;
   /// Waits for the end of the motion started last.
   [[nodiscard]] virtual Expected<MotionOutcome> finish() = 0;

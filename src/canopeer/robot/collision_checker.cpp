@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "canopeer/base/check.h"
 #include "canopeer/map/distance_field.h"
@@ -45,7 +46,7 @@ struct ArcCurve {
 
 /// Where everything is in one configuration, world frame.
 struct CollisionChecker::State {
-  Pose T_world_body[kMaxArmJoints];
+  Pose T_world_body[RobotModel::kMaxBodies];
   const Vec3* centres = nullptr;  // of the spheres
   const Vec3* bounds = nullptr;   // centres of the arm links' bounding spheres
 };
@@ -65,6 +66,7 @@ CollisionChecker::CollisionChecker(const RobotModel& robot, const TrolleyState& 
   std::vector<Pose> T_world_link;
   robot.link_poses(Configuration::Zero(robot.dof()), trolley, T_world_link);
   collect_obstacles(T_world_link);
+  add_motion_of_followers();
   collect_groups();
   collect_reaches();
 }
@@ -82,7 +84,7 @@ bool CollisionChecker::collect_arm_links(double sphere_excess_m) {
     if (link.collision.empty()) continue;
     ArmLink arm_link;
     arm_link.link = index;
-    arm_link.body = robot_->arm_joints_before(index) - 1;
+    arm_link.body = robot_->body_of(index);
     arm_link.first_sphere = static_cast<int>(centres_.size());
     const Pose T_body_link = robot_->T_body_link(index);
     std::vector<Sphere> spheres;
@@ -102,12 +104,12 @@ bool CollisionChecker::collect_arm_links(double sphere_excess_m) {
     if (centres_.size() > std::max<std::size_t>(kMaxSpheres, 2 * arm_shapes_.size())) return false;
     arm_link.last_sphere = static_cast<int>(centres_.size());
     arm_link.bound = bounding_sphere(spheres);
-    measure_reach(arm_link.bound, arm_link);
+    arm_link.reach_m = reach_of(index, arm_link.bound.centre.norm() + arm_link.bound.radius_m);
     arm_link.bound.centre = T_body_link * arm_link.bound.centre;
     arm_links_.push_back(std::move(arm_link));
   }
   const bool one_part_a_link = arm_links_.size() <= kMaxParts;
-  parts_ = one_part_a_link ? static_cast<int>(arm_links_.size()) : robot_->dof();
+  parts_ = one_part_a_link ? static_cast<int>(arm_links_.size()) : robot_->bodies();
   for (std::size_t a = 0; a < arm_links_.size(); ++a)
     arm_links_[a].part = one_part_a_link ? static_cast<int>(a) : arm_links_[a].body;
   return true;
@@ -119,7 +121,7 @@ void CollisionChecker::collect_obstacles(const std::vector<Pose>& T_world_link) 
   for (std::size_t i = 0; i < robot_->links().size(); ++i) {
     const int link = static_cast<int>(i);
     Obstacle obstacle;
-    obstacle.body = robot_->arm_joints_before(link) - 1;
+    obstacle.body = robot_->body_of(link);
     for (std::size_t a = 0; a < arm_links_.size(); ++a) {
       if (robot_->pair_checked(arm_links_[a].link, link) && arm_links_[a].body > obstacle.body)
         obstacle.arm_links.push_back(static_cast<int>(a));
@@ -140,28 +142,43 @@ void CollisionChecker::collect_obstacles(const std::vector<Pose>& T_world_link) 
   }
 }
 
-// No point of the link is ever farther from joint i's axis than the way along the chain: the part
-// of the first hop at right angles to the axis, then the lengths of the others.
-void CollisionChecker::measure_reach(const Sphere& bound_link, ArmLink& arm_link) const {
-  const double own = bound_link.centre.norm() + bound_link.radius_m;
-  const std::vector<RobotModel::Hop> hops = robot_->arm_hops(arm_link.link);
-  const int joints = robot_->arm_joints_before(arm_link.link);
-  arm_link.reach_m.assign(static_cast<std::size_t>(joints), 0.0);
-  for (int i = 0; i < joints; ++i) {
-    if (robot_->arm_joint_type(i) == JointType::kPrismatic) {
-      arm_link.reach_m[static_cast<std::size_t>(i)] = 1.0;  // metre for metre
-      continue;
-    }
+// No point of the link is ever farther from a joint's axis than the way along the chain: the part
+// of the first hop at right angles to the axis, then the lengths of the others. A joint that others
+// follow moves the link about each of their axes too. `own`: how far the link's points are from its
+// frame.
+Configuration CollisionChecker::reach_of(int link, double own) const {
+  const std::vector<RobotModel::Hop> hops = robot_->arm_hops(link);
+  Configuration reach_m = Configuration::Zero(robot_->dof());
+  for (auto from = hops.begin(); from != hops.end(); ++from) {
+    if (from->share == 0.0) continue;
     double reach = own;
-    bool first = true;
-    for (const RobotModel::Hop& hop : hops) {
-      if (hop.after_joint < i) continue;
-      const Vec3 sideways = hop.offset - hop.axis * hop.axis.dot(hop.offset);
-      reach += (first ? sideways.norm() : hop.offset.norm()) + hop.slide;
-      first = false;
+    for (auto hop = from; hop != hops.end(); ++hop) {
+      const Vec3 sideways = hop->offset - hop->axis * hop->axis.dot(hop->offset);
+      reach += (hop == from ? sideways.norm() : hop->offset.norm()) + hop->slide;
     }
-    arm_link.reach_m[static_cast<std::size_t>(i)] = reach;
+    if (from->slides) reach = 1.0;  // metre for metre
+    reach_m[from->joint] += from->share * reach;
   }
+  return reach_m;
+}
+
+// What is not carried by the obstacle and does not carry it moves towards it by both their motions.
+void CollisionChecker::add_motion_of_followers() {
+  if (!robot_->has_followers()) return;
+  std::vector<ArmLink> with_both = arm_links_;
+  for (const Obstacle& obstacle : obstacles_) {
+    if (obstacle.body < 0) continue;
+    const int body_link = robot_->body_link(obstacle.body);
+    const Configuration of_obstacle =
+        reach_of(body_link, obstacle.centre.norm() + obstacle.radius_m);
+    for (const int a : obstacle.arm_links) {
+      const ArmLink& arm_link = arm_links_[static_cast<std::size_t>(a)];
+      if (robot_->carried_by(arm_link.link, body_link)) continue;
+      Configuration& reach_m = with_both[static_cast<std::size_t>(a)].reach_m;
+      reach_m = reach_m.cwiseMax(arm_link.reach_m + of_obstacle);
+    }
+  }
+  arm_links_ = std::move(with_both);
 }
 
 void CollisionChecker::set_map(const DistanceField* map) { map_ = map; }
@@ -343,8 +360,8 @@ bool CollisionChecker::sweep(const Curve& curve, const Configuration& speed,
   Clearances motion{};
   for (const ArmLink& arm_link : arm_links_) {
     double moved = 0.0;
-    for (std::size_t joint = 0; joint < arm_link.reach_m.size(); ++joint)
-      moved += speed[static_cast<int>(joint)] * arm_link.reach_m[joint];
+    for (int joint = 0; joint < speed.size(); ++joint)
+      moved += speed[joint] * arm_link.reach_m[joint];
     motion[arm_link.part] = std::max(motion[arm_link.part], moved);
   }
   const auto covered = [&](const Interval& interval) {

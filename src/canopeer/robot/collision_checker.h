@@ -66,8 +66,7 @@ class CollisionChecker {
  private:
   /// Clearances are kept for so many parts of the arm: each link, or where there are more, each
   /// body.
-  static constexpr int kMaxParts = 24;
-  static_assert(kMaxParts >= kMaxArmJoints);
+  static constexpr int kMaxParts = RobotModel::kMaxBodies;
   /// With more of them they are made coarser, down to two a shape.
   static constexpr int kMaxSpheres = 512;
   /// The voxels near a link's shape are looked at this far beyond the clearance asked for. So its
@@ -77,12 +76,12 @@ class CollisionChecker {
   using Clearances = std::array<double, kMaxParts>;
   struct ArmLink {
     int link = 0;
-    int body = 0;                 // of RobotModel::body_poses(), which it is fixed to
-    int part = 0;                 // whose clearance its own counts for
-    int first_sphere = 0;         // in centres_ and radii_m_
-    int last_sphere = 0;          // one past
-    Sphere bound;                 // around all of them, body frame
-    std::vector<double> reach_m;  // per arm joint that moves it: no point is farther from its axis
+    int body = 0;           // of RobotModel::body_poses(), which it is fixed to
+    int part = 0;           // whose clearance its own counts for
+    int first_sphere = 0;   // in centres_ and radii_m_
+    int last_sphere = 0;    // one past
+    Sphere bound;           // around all of them, body frame
+    Configuration reach_m;  // by how much a radian of each arm joint moves it at most
   };
   struct Obstacle {        // a shape of the robot, trolley included, that arm links can run into
     int body = -1;         // that its link is fixed to; −1: it rests
@@ -109,7 +108,8 @@ class CollisionChecker {
 
   bool collect_arm_links(double sphere_excess_m);
   void collect_obstacles(const std::vector<Pose>& T_world_link);
-  void measure_reach(const Sphere& bound_link, ArmLink& arm_link) const;
+  [[nodiscard]] Configuration reach_of(int link, double own) const;
+  void add_motion_of_followers();
   void collect_groups();
   void collect_reaches();
   bool state_free_wide(const Configuration& q) const;

@@ -192,8 +192,7 @@ ContactReport ExactChecker::check(const Configuration& q, const TrolleyState& tr
 
 std::vector<std::string> ExactChecker::resting_contacts(const TrolleyState& trolley) const {
   std::vector<std::string> links;
-  const Configuration anywhere =
-      (impl_->robot->limits().lower + impl_->robot->limits().upper) / 2.0;
+  const Configuration anywhere = (impl_->robot->span().lower + impl_->robot->span().upper) / 2.0;
   for (const Placed& part : impl_->place(anywhere, trolley)) {
     const std::string& link = impl_->name(part.link);
     if (!impl_->in_arm(part.link) && (links.empty() || links.back() != link) &&

@@ -20,7 +20,39 @@ namespace {
 
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
-using Space = ob::RealVectorStateSpace;
+using Values = ob::RealVectorStateSpace;
+
+/// Joint space. Endless joints are real numbers in it, too; whatever joins two states goes the
+/// shorter way round, so that the space is as far as it needs to know a cylinder or torus.
+class Space : public Values {
+ public:
+  Space(unsigned dof, const EndlessJoints& endless) : Values(dof), endless_(endless) {}
+
+  double distance(const ob::State* a, const ob::State* b) const override {
+    if (!endless_.any()) return Values::distance(a, b);
+    const int dof = static_cast<int>(getDimension());
+    const Configuration from = values_of(a, dof);
+    return (endless_.nearest(values_of(b, dof), from) - from).norm();
+  }
+  void interpolate(const ob::State* a, const ob::State* b, double t,
+                   ob::State* state) const override {
+    if (!endless_.any()) {
+      Values::interpolate(a, b, t, state);
+      return;
+    }
+    const int dof = static_cast<int>(getDimension());
+    const Configuration from = values_of(a, dof);
+    const Configuration to = endless_.nearest(values_of(b, dof), from);
+    Eigen::Map<Configuration>(state->as<StateType>()->values, dof) = from + t * (to - from);
+  }
+
+ private:
+  static Configuration values_of(const ob::State* state, int dof) {
+    return Eigen::Map<const Configuration>(state->as<StateType>()->values, dof);
+  }
+
+  const EndlessJoints& endless_;
+};
 
 Configuration configuration_of(const ob::State* state, int dof) {
   return Eigen::Map<const Configuration>(state->as<Space::StateType>()->values, dof);
@@ -52,14 +84,16 @@ class SeededSampler : public ob::RealVectorStateSampler {
 class EdgeValidator : public ob::MotionValidator {
  public:
   EdgeValidator(const ob::SpaceInformationPtr& information, const CollisionChecker& checker,
-                int dof, int& states_checked)
+                const EndlessJoints& endless, int dof, int& states_checked)
       : MotionValidator(information),
         checker_(checker),
+        endless_(endless),
         dof_(dof),
         states_checked_(states_checked) {}
 
   bool checkMotion(const ob::State* a, const ob::State* b) const override {
-    return checker_.edge_free(configuration_of(a, dof_), configuration_of(b, dof_),
+    const Configuration from = configuration_of(a, dof_);
+    return checker_.edge_free(from, endless_.nearest(configuration_of(b, dof_), from),
                               &states_checked_);
   }
   bool checkMotion(const ob::State*, const ob::State*,
@@ -70,6 +104,7 @@ class EdgeValidator : public ob::MotionValidator {
 
  private:
   const CollisionChecker& checker_;
+  const EndlessJoints& endless_;
   int dof_;
   int& states_checked_;
 };
@@ -77,13 +112,15 @@ class EdgeValidator : public ob::MotionValidator {
 using Path = std::vector<Configuration>;
 
 std::optional<Path> rrt_connect(const Configuration& start, const Configuration& goal,
-                                const JointLimits& limits, const CollisionChecker& checker,
+                                const RobotModel& robot, const CollisionChecker& checker,
                                 const MotionPlannerOptions& options, std::uint64_t seed,
                                 MotionPlanStats& stats) {
-  const int dof = static_cast<int>(start.size());
+  const int dof = robot.dof();
+  const JointLimits& limits = robot.limits();
+  const EndlessJoints& endless = robot.endless();
   ompl::msg::noOutputHandler();  // the library prints nothing
 
-  auto space = std::make_shared<Space>(dof);
+  auto space = std::make_shared<Space>(static_cast<unsigned>(dof), endless);
   ob::RealVectorBounds bounds(static_cast<unsigned>(dof));
   for (int i = 0; i < dof; ++i) {
     bounds.setLow(
@@ -103,7 +140,7 @@ std::optional<Path> rrt_connect(const Configuration& start, const Configuration&
     return checker.state_free(configuration_of(state, dof));
   });
   information->setMotionValidator(
-      std::make_shared<EdgeValidator>(information, checker, dof, stats.states_checked));
+      std::make_shared<EdgeValidator>(information, checker, endless, dof, stats.states_checked));
   information->setup();
 
   auto problem = std::make_shared<ob::ProblemDefinition>(information);
@@ -126,8 +163,10 @@ std::optional<Path> rrt_connect(const Configuration& start, const Configuration&
   if (planner.solve(enough) != ob::PlannerStatus::EXACT_SOLUTION) return std::nullopt;
 
   Path path;
-  for (const ob::State* state : problem->getSolutionPath()->as<og::PathGeometric>()->getStates())
-    path.push_back(configuration_of(state, dof));
+  for (const ob::State* state : problem->getSolutionPath()->as<og::PathGeometric>()->getStates()) {
+    const Configuration q = configuration_of(state, dof);
+    path.push_back(path.empty() ? q : endless.nearest(q, path.back()));
+  }
   return path;
 }
 
@@ -147,9 +186,11 @@ double path_time(const Path& path, const JointLimits& limits) {
   return time;
 }
 
-/// Replaces stretches between two random places by straight motions where that saves time.
-void shortcut(Path& path, const JointLimits& limits, const CollisionChecker& checker, int attempts,
+/// Replaces stretches between two random places by straight motions where that saves time. The
+/// shorter way round may end whole turns from where the stretch did; then so does what follows.
+void shortcut(Path& path, const RobotModel& robot, const CollisionChecker& checker, int attempts,
               Rng& random, MotionPlanStats& stats) {
+  const JointLimits& limits = robot.limits();
   for (int attempt = 0; attempt < attempts && path.size() > 2; ++attempt) {
     // Half of the tries join waypoints: they are what removes stops.
     const bool waypoints = attempt % 2 == 0;
@@ -169,11 +210,17 @@ void shortcut(Path& path, const JointLimits& limits, const CollisionChecker& che
 
     Path shorter(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(first.segment) + 1);
     const Configuration a = first.on(path);
-    const Configuration b = second.on(path);
+    Configuration b = second.on(path);
     if (first.fraction > 0.0) shorter.push_back(a);
+    const std::size_t kept = shorter.size();
     if (second.fraction < 1.0) shorter.push_back(b);
     shorter.insert(shorter.end(), path.begin() + static_cast<std::ptrdiff_t>(second.segment) + 1,
                    path.end());
+    if (robot.endless().any()) {
+      const Configuration turns = robot.endless().nearest(b, a) - b;
+      for (std::size_t i = kept; i < shorter.size(); ++i) shorter[i] += turns;
+      b += turns;
+    }
     if (path_time(shorter, limits) >= path_time(path, limits)) continue;
     if (checker.edge_free(a, b, &stats.states_checked)) path = std::move(shorter);
   }
@@ -214,12 +261,13 @@ std::optional<std::vector<Configuration>> MotionPlanner::plan(const Configuratio
     if (rest) rest->insert(rest->begin(), start);
     return rest;
   }
-  if (checker.edge_free(start, goal, &work.states_checked)) return Path{start, goal};
+  const Configuration near = robot_->endless().nearest(goal, start);
+  if (checker.edge_free(start, near, &work.states_checked)) return Path{start, near};
 
-  auto path = rrt_connect(start, goal, robot_->limits(), checker, options_, seed, work);
+  auto path = rrt_connect(start, near, *robot_, checker, options_, seed, work);
   if (!path) return std::nullopt;
   Rng random(seed, "motion-planner-shortcut");
-  shortcut(*path, robot_->limits(), checker, options_.shortcut_attempts, random, work);
+  shortcut(*path, *robot_, checker, options_.shortcut_attempts, random, work);
   return path;
 }
 

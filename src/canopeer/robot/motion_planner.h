@@ -33,10 +33,11 @@ class MotionPlanner {
   /// `robot` must outlive the planner.
   explicit MotionPlanner(const RobotModel& robot, const MotionPlannerOptions& options = {});
 
-  /// Waypoints from start to goal, both included, joined by collision-free straight motions; empty
-  /// when the goal collides or the iterations did not suffice. A start that collides by now,
-  /// because the map learnt more, is first left for a free state nearby
-  /// (CollisionChecker::escape_free).
+  /// Waypoints from start to goal, both included, joined by collision-free straight motions. Joints
+  /// that turn without end run on from the start's values, the shorter way round where it is free:
+  /// the last waypoint may be whole turns from `goal`. Empty when the goal collides or the
+  /// iterations did not suffice. A start that collides by now, because the map learnt more, is
+  /// first left for a free state nearby (CollisionChecker::escape_free).
   [[nodiscard]] std::optional<std::vector<Configuration>> plan(
       const Configuration& start, const Configuration& goal, const CollisionChecker& checker,
       std::uint64_t seed, MotionPlanStats* stats = nullptr) const;

@@ -63,10 +63,12 @@ struct Link {
   std::vector<CollisionShape> visual{};   ///< for pictures only; empty: the collision shapes
 };
 
-enum class JointType { kFixed, kRevolute, kPrismatic };
+/// The last two move in a plane at right angles to the axis, and anyhow.
+enum class JointType { kFixed, kRevolute, kPrismatic, kPlanar, kFloating };
 
 /// Moves `child` against `parent`: T_parent_child = T_parent_joint · motion(q about or along axis).
-/// Units: rad, rad/s, rad/s² (revolute) or m, m/s, m/s² (prismatic).
+/// Units: rad, rad/s, rad/s² (revolute) or m, m/s, m/s² (prismatic). A revolute joint without
+/// limits turns without end.
 struct Joint {
   std::string name;
   JointType type = JointType::kFixed;
@@ -78,6 +80,15 @@ struct Joint {
   double upper = std::numeric_limits<double>::infinity();
   double velocity_limit = std::numeric_limits<double>::infinity();
   double acceleration_limit = std::numeric_limits<double>::infinity();
+  /// The joint it follows: its position is multiplier · (the other's) + offset. Empty: none.
+  std::string mimics{};
+  double multiplier = 1.0;
+  double offset = 0.0;
+  /// Controllers that know them hold the joint within these; here they are only spoken of.
+  double soft_lower = -std::numeric_limits<double>::infinity();
+  double soft_upper = std::numeric_limits<double>::infinity();
+  std::string flaw{};   ///< why nothing can move it ("its <limit> …"); empty: it can
+  std::string place{};  ///< where it was read, "file:line"; empty: nowhere
 };
 
 /// A robot as its files (URDF, SRDF) tell it: a tree of links, plain values.

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "canopeer/base/check.h"
+#include "canopeer/base/exact_text.h"
+#include "canopeer/robot/kinematics/joint_drives.h"
 
 namespace canopeer {
 namespace {
@@ -14,46 +17,39 @@ const Joint* find_joint(const RobotDescription& robot, const std::string& name) 
   return it == robot.joints.end() ? nullptr : &*it;
 }
 
-/// What motions are planned and timed within.
-Expected<void> check_limits(const Joint& joint) {
-  constexpr double kLargest = 1e4;  // the reach of sin_cos(), with room
-  const auto number = [](double value) { return std::isfinite(value); };
-  std::string missing;
-  const auto want = [&](bool there, const char* what) {
-    if (!there) missing += std::string(missing.empty() ? "" : ", ") + what;
-  };
-  want(number(joint.lower) && number(joint.upper),
-       "lower and upper (a continuous joint: make it revolute with a range)");
-  want(number(joint.velocity_limit) && joint.velocity_limit > 0.0, "velocity above 0");
-  want(number(joint.acceleration_limit) && joint.acceleration_limit > 0.0, "acceleration above 0");
-  if (!missing.empty())
-    return fail("joint '" + joint.name + "' needs finite limits; missing: " + missing);
-  if (joint.lower > joint.upper || joint.lower < -kLargest || joint.upper > kLargest)
-    return fail("joint '" + joint.name + "': expected lower <= upper, both within 1e4");
-  return {};
-}
-
-/// All that is missing at once, so that a robot is mended in one go.
-Expected<void> check_all_limits(const RobotDescription& robot, const RobotSetup& setup) {
-  std::vector<std::string> driven = setup.arm_joints;
-  for (const std::string& axis : {setup.travel_joint, setup.lift_joint}) {
-    if (!axis.empty()) driven.push_back(axis);
-  }
-  std::string wrong;
-  for (const std::string& name : driven) {
-    const Joint* const joint = find_joint(robot, name);
-    if (joint == nullptr) continue;  // said elsewhere
-    if (auto limits = check_limits(*joint); !limits)
-      wrong += (wrong.empty() ? "" : "; ") + limits.error().message;
-  }
-  if (!wrong.empty()) return fail(wrong);
-  return {};
-}
-
 Joint fixed_axis() {
   Joint joint;
   joint.lower = joint.upper = 0.0;
   return joint;
+}
+
+/// The joints of the setup must exist and be of types that can be driven.
+Expected<void> check_names(const RobotDescription& robot, const RobotSetup& setup) {
+  const auto check = [&](const std::string& name, bool arm) -> Expected<void> {
+    const char* const what = arm ? "arm joint" : "trolley axis";
+    const Joint* const joint = find_joint(robot, name);
+    if (joint == nullptr) return fail("no joint is called '" + name + "' (" + what + ")");
+    if (joint->type != JointType::kPrismatic && !(arm && joint->type == JointType::kRevolute))
+      return fail("joint '" + name + "' must be " + (arm ? "revolute or prismatic" : "prismatic") +
+                  " (" + what + ")");
+    return {};
+  };
+  for (auto it = setup.arm_joints.begin(); it != setup.arm_joints.end(); ++it) {
+    if (auto ok = check(*it, true); !ok) return ok;
+    if (std::find(setup.arm_joints.begin(), it, *it) != it)
+      return fail("joint '" + *it + "' is listed twice");
+  }
+  for (const std::string& axis : {setup.travel_joint, setup.lift_joint}) {
+    if (axis.empty()) continue;
+    if (auto ok = check(axis, false); !ok) return ok;
+  }
+  return {};
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string all;
+  for (const std::string& part : parts) all += (all.empty() ? "" : "; ") + part;
+  return all;
 }
 
 }  // namespace
@@ -64,8 +60,9 @@ Expected<RobotModel> RobotModel::make(RobotDescription description, RobotSetup s
   model.setup_ = std::move(setup);
   if (auto ordered = model.order_links(); !ordered) return fail(ordered.error().message);
   if (auto assigned = model.assign_roles(); !assigned) return fail(assigned.error().message);
+  if (auto paths = model.find_paths(); !paths) return fail(paths.error().message);
   if (auto checked = model.check_setup(); !checked) return fail(checked.error().message);
-  model.compile_chains();
+  if (auto compiled = model.compile_chains(); !compiled) return fail(compiled.error().message);
   model.collect_pairs();
   return model;
 }
@@ -105,61 +102,76 @@ Expected<void> RobotModel::order_links() {
 }
 
 Expected<void> RobotModel::assign_roles() {
-  const auto axis_node = [&](const std::string& name, bool arm, const char* what,
-                             int& index) -> Expected<const Joint*> {
-    const Joint* joint = find_joint(description_, name);
-    if (joint == nullptr) return fail("no joint is called '" + name + "' (" + what + ")");
-    if (joint->type != JointType::kPrismatic && !(arm && joint->type == JointType::kRevolute))
-      return fail("joint '" + name + "' must be " + (arm ? "revolute or prismatic" : "prismatic") +
-                  " (" + what + ")");
-    index = link_index(joint->child);
-    return joint;
-  };
-
-  if (auto limits = check_all_limits(description_, setup_); !limits)
-    return fail(limits.error().message);
   const int dof = static_cast<int>(setup_.arm_joints.size());
   if (dof < 1 || dof > kMaxArmJoints)
     return fail("arm_joints: expected at least 1 and at most " + std::to_string(kMaxArmJoints) +
                 " joints, found " + std::to_string(dof));
-  limits_.lower.resize(dof);
-  limits_.upper.resize(dof);
-  limits_.velocity.resize(dof);
-  limits_.acceleration.resize(dof);
-  for (int i = 0; i < dof; ++i) {
-    int index = -1;
-    auto joint = axis_node(setup_.arm_joints[i], true, "arm joint", index);
-    if (!joint) return fail(joint.error().message);
-    if (nodes_[index].drive != Drive::kNone)
-      return fail("joint '" + setup_.arm_joints[i] + "' is listed twice");
-    nodes_[index].drive = Drive::kArm;
-    nodes_[index].arm_joint = i;
-    arm_nodes_.push_back(index);
-    limits_.lower[i] = (*joint)->lower;
-    limits_.upper[i] = (*joint)->upper;
-    limits_.velocity[i] = (*joint)->velocity_limit;
-    limits_.acceleration[i] = (*joint)->acceleration_limit;
-  }
-  travel_axis_ = lift_axis_ = fixed_axis();
-  for (const bool travel : {true, false}) {
-    const std::string& name = travel ? setup_.travel_joint : setup_.lift_joint;
-    if (name.empty()) continue;
-    int index = -1;
-    auto joint = axis_node(name, false, "trolley axis", index);
-    if (!joint) return fail(joint.error().message);
-    nodes_[index].drive = travel ? Drive::kTravel : Drive::kLift;
-    (travel ? travel_axis_ : lift_axis_) = **joint;
-  }
+  if (auto named = check_names(description_, setup_); !named) return named;
+  JointDrives drives = find_drives(description_, setup_);
+  limit_drivers(description_, drives);
+  if (!drives.problems.empty()) return fail(joined(drives.problems));
+  for (const std::string& notice : drives.notices) description_.notices.push_back(notice);
 
+  limits_ = {Configuration(dof), Configuration(dof), Configuration(dof), Configuration(dof)};
+  arm_nodes_.assign(static_cast<std::size_t>(dof), -1);
+  travel_axis_ = lift_axis_ = fixed_axis();
+  for (std::size_t k = 0; k < description_.joints.size(); ++k) {
+    const Joint& joint = description_.joints[k];
+    const JointDrive& drive = drives.of[k];
+    const int index = link_index(joint.child);
+    Node& node = nodes_[static_cast<std::size_t>(index)];
+    if (drive.kind == JointDrive::Kind::kStands) {
+      node.T_parent_joint = joint_pose(joint, drive.offset);
+      if (joint.type == JointType::kPlanar || joint.type == JointType::kFloating)
+        node.T_parent_joint = node.T_parent_joint * drive.pose;
+      node.type = JointType::kFixed;
+      continue;
+    }
+    node.follows = drive.follows;
+    node.multiplier = drive.multiplier;
+    node.offset = drive.offset;
+    if (drive.kind != JointDrive::Kind::kArm) {
+      const bool travels = drive.kind == JointDrive::Kind::kTravel;
+      node.drive = travels ? Drive::kTravel : Drive::kLift;
+      if (!drive.follows) (travels ? travel_axis_ : lift_axis_) = joint;
+      continue;
+    }
+    node.drive = Drive::kArm;
+    node.arm_joint = drive.arm_joint;
+    has_followers_ = has_followers_ || drive.follows;
+    if (drive.follows) continue;
+    const int i = drive.arm_joint;
+    arm_nodes_[static_cast<std::size_t>(i)] = index;
+    limits_.lower[i] = joint.lower;
+    limits_.upper[i] = joint.upper;
+    limits_.velocity[i] = joint.velocity_limit;
+    limits_.acceleration[i] = joint.acceleration_limit;
+  }
+  endless_ = EndlessJoints(limits_);
+  span_ = limits_;
+  for (int i = 0; i < dof; ++i) {
+    if (!endless_[i]) continue;
+    span_.lower[i] = -std::numbers::pi;
+    span_.upper[i] = std::numbers::pi;
+  }
+  return {};
+}
+
+/// What moves with which joints, and the ways from the root to the base and on to the camera.
+Expected<void> RobotModel::find_paths() {
   for (std::size_t i = 1; i < nodes_.size(); ++i) {
     Node& node = nodes_[i];
     const Node& parent = nodes_[node.parent];
+    node.own_joints_before = parent.own_joints_before;
     node.arm_joints_before = parent.arm_joints_before;
     if (node.drive == Drive::kArm) {
-      if (node.arm_joint != parent.arm_joints_before)
-        return fail("arm joints must form one chain, listed from base to tool; '" +
-                    setup_.arm_joints[node.arm_joint] + "' is out of order");
-      ++node.arm_joints_before;
+      if (!node.follows) {
+        if (node.arm_joint != parent.own_joints_before)
+          return fail("arm joints must form one chain, listed from base to tool; '" +
+                      setup_.arm_joints[node.arm_joint] + "' is out of order");
+        ++node.own_joints_before;
+      }
+      node.arm_joints_before = std::max(parent.arm_joints_before, node.arm_joint + 1);
     }
     node.rigid_group = node.drive == Drive::kNone ? parent.rigid_group : static_cast<int>(i);
   }
@@ -179,7 +191,7 @@ Expected<void> RobotModel::assign_roles() {
   if (!camera_path_.empty() && nodes_[camera_path_.front()].parent != base)
     return fail("the camera frame '" + setup_.camera_frame + "' does not hang on base_link '" +
                 setup_.base_link + "'");
-  if (nodes_[base].arm_joints_before != 0 || nodes_[camera].arm_joints_before != dof)
+  if (nodes_[base].arm_joints_before != 0 || nodes_[camera].own_joints_before != dof())
     return fail("all arm joints must lie between base_link '" + setup_.base_link +
                 "' and camera_frame '" + setup_.camera_frame + "'");
   for (const int index : camera_path_) {
@@ -189,17 +201,24 @@ Expected<void> RobotModel::assign_roles() {
   return {};
 }
 
-Expected<void> RobotModel::check_setup() const {
-  for (const auto& [name, q] : setup_.home) {
+Expected<void> RobotModel::check_setup() {
+  std::string wrong;
+  for (auto& [name, q] : setup_.home) {
     if (q.size() != dof())
       return fail("home state '" + name + "' needs " + std::to_string(dof()) + " values");
     for (int i = 0; i < dof(); ++i) {
-      if (q[i] >= limits_.lower[i] && q[i] <= limits_.upper[i]) continue;
-      return fail("home state '" + name + "': joint '" + setup_.arm_joints[i] + "' at " +
-                  std::to_string(q[i]) + " is outside its limits " +
-                  std::to_string(limits_.lower[i]) + " ... " + std::to_string(limits_.upper[i]));
+      const double within = std::clamp(q[i], limits_.lower[i], limits_.upper[i]);
+      if (std::abs(q[i] - within) <= kLimitTolerance && std::abs(q[i]) <= kLargestPosition) {
+        q[i] = within;
+        continue;
+      }
+      wrong += (wrong.empty() ? "" : "; ") +
+               ("home state '" + name + "': joint '" + setup_.arm_joints[i]) + "' at " +
+               exact_text(q[i]) + " is outside its limits " + exact_text(limits_.lower[i]) +
+               " ... " + exact_text(limits_.upper[i]);
     }
   }
+  if (!wrong.empty()) return fail(wrong);
   if (setup_.workspace.size() != setup_.sampling_region.size())
     return fail("each side needs a workspace and a sampling region");
   for (const auto& boxes : {setup_.workspace, setup_.sampling_region}) {
@@ -249,95 +268,8 @@ void RobotModel::leave_neighbours_out() {
 }
 
 bool RobotModel::within_limits(const Configuration& q) const {
-  return (q.array() >= limits_.lower.array()).all() && (q.array() <= limits_.upper.array()).all();
-}
-
-// Two chains: all links that move with the arm, for collisions; and joints only, with what is
-// fixed in between folded in, for the camera.
-void RobotModel::compile_chains() {
-  std::vector<int> segment_of(nodes_.size(), -1);
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const Node& node = nodes_[i];
-    if (node.arm_joints_before == 0) continue;
-    if (moving_links_.empty()) moving_root_ = node.parent;
-    segment_of[i] = moving_chain_.add(segment_of[static_cast<std::size_t>(node.parent)],
-                                      node.T_parent_joint, node.type, node.axis, node.arm_joint);
-    moving_links_.push_back(static_cast<int>(i));
-  }
-  Pose T_fixed = Pose::Identity();
-  for (const int index : camera_path_) {
-    const Node& node = nodes_[index];
-    T_fixed = T_fixed * node.T_parent_joint;
-    if (node.drive != Drive::kArm) continue;
-    camera_chain_.add(camera_chain_.size() - 1, T_fixed, node.type, node.axis, node.arm_joint);
-    T_fixed = Pose::Identity();
-  }
-  T_last_camera_ = T_fixed;
-}
-
-Pose RobotModel::T_parent_link(const Node& node, const TrolleyState& trolley) const {
-  const double travelled = node.drive == Drive::kTravel ? trolley.travel_m
-                           : node.drive == Drive::kLift ? trolley.lift_m
-                                                        : 0.0;
-  Pose T = node.T_parent_joint;
-  if (travelled != 0.0) T.translate(node.axis * travelled);
-  return T;
-}
-
-Pose RobotModel::T_world_base(const TrolleyState& trolley) const {
-  Pose T = setup_.T_world_root;
-  for (const int index : base_path_) T = T * T_parent_link(nodes_[index], trolley);
-  return T;
-}
-
-Pose RobotModel::T_base_camera(const Configuration& q) const {
-  CANOPEER_CHECK(q.size() == dof(), "configuration of another arm");
-  Pose T[kMaxArmJoints];
-  camera_chain_.poses(q, Pose::Identity(), T);
-  return T[dof() - 1] * T_last_camera_;
-}
-
-void RobotModel::camera_jacobian(const Configuration& q, Pose& T_base_camera,
-                                 Jacobian& jacobian) const {
-  Pose T[kMaxArmJoints];
-  camera_chain_.poses(q, Pose::Identity(), T);
-  T_base_camera = T[dof() - 1] * T_last_camera_;
-  jacobian.resize(6, dof());
-  for (int i = 0; i < dof(); ++i) {
-    const Vec3 axis = T[i].linear() * nodes_[arm_nodes_[i]].axis;
-    if (arm_joint_type(i) == JointType::kPrismatic) {
-      jacobian.col(i) << axis, Vec3::Zero();
-    } else {
-      jacobian.col(i) << axis.cross(T_base_camera.translation() - T[i].translation()), axis;
-    }
-  }
-}
-
-std::vector<RobotModel::AxisLine> RobotModel::arm_axes(const Configuration& q) const {
-  Pose T[kMaxArmJoints];
-  camera_chain_.poses(q, Pose::Identity(), T);
-  std::vector<AxisLine> axes;
-  for (int i = 0; i < dof(); ++i)
-    axes.push_back(
-        {T[i].translation(), T[i].linear() * nodes_[arm_nodes_[i]].axis, arm_joint_type(i)});
-  return axes;
-}
-
-std::vector<RobotModel::Hop> RobotModel::arm_hops(int link) const {
-  std::vector<Hop> hops;
-  for (; nodes_[link].parent >= 0; link = nodes_[link].parent) {
-    const Node& node = nodes_[link];
-    const Node& parent = nodes_[node.parent];
-    if (parent.arm_joints_before == 0) break;
-    Hop hop{parent.arm_joints_before - 1, node.T_parent_joint.translation(), parent.axis, 0.0};
-    if (node.drive == Drive::kArm && node.type == JointType::kPrismatic)
-      hop.slide = std::max(std::abs(limits_.lower[node.arm_joint]),
-                           std::abs(limits_.upper[node.arm_joint]));
-    // A fixed joint's stretch has no axis of its own; only the first stretch after a joint uses it.
-    hops.push_back(hop);
-  }
-  std::reverse(hops.begin(), hops.end());
-  return hops;
+  return (q.array() >= limits_.lower.array() - kLimitTolerance).all() &&
+         (q.array() <= limits_.upper.array() + kLimitTolerance).all();
 }
 
 int RobotModel::link_index(std::string_view name) const {
@@ -349,6 +281,13 @@ int RobotModel::link_index(std::string_view name) const {
 bool RobotModel::pair_checked(int link_a, int link_b) const {
   return pair_checked_[static_cast<std::size_t>(link_a) * links_.size() +
                        static_cast<std::size_t>(link_b)] != 0;
+}
+
+bool RobotModel::carried_by(int link_a, int link_b) const {
+  for (; link_a >= 0; link_a = nodes_[link_a].parent) {
+    if (rigidly_joined(link_a, link_b)) return true;
+  }
+  return false;
 }
 
 bool RobotModel::joined_by_a_joint(int link_a, int link_b) const {
@@ -369,30 +308,8 @@ bool RobotModel::joined_by_a_joint(int link_a, int link_b) const {
 }
 
 Pose RobotModel::T_body_link(int link) const {
-  Pose T = Pose::Identity();
-  for (; nodes_[link].drive != Drive::kArm; link = nodes_[link].parent) {
-    CANOPEER_CHECK(nodes_[link].arm_joints_before > 0, "the link does not move with the arm");
-    T = nodes_[link].T_parent_joint * T;
-  }
-  return T;
-}
-
-void RobotModel::link_poses(const Configuration& q, const TrolleyState& trolley,
-                            std::vector<Pose>& T_world_link) const {
-  CANOPEER_CHECK(q.size() == dof(), "configuration of another arm");
-  T_world_link.resize(links_.size());
-  T_world_link[0] = setup_.T_world_root;
-  for (std::size_t i = 1; i < nodes_.size(); ++i) {
-    if (nodes_[i].arm_joints_before == 0)
-      T_world_link[i] = T_world_link[nodes_[i].parent] * T_parent_link(nodes_[i], trolley);
-  }
-  arm_link_poses(q, T_world_link);
-}
-
-void RobotModel::arm_link_poses(const Configuration& q, std::vector<Pose>& T_world_link) const {
-  std::vector<Pose> T(moving_links_.size());
-  moving_chain_.poses(q, T_world_link[moving_root_], T.data());
-  for (std::size_t i = 0; i < moving_links_.size(); ++i) T_world_link[moving_links_[i]] = T[i];
+  CANOPEER_CHECK(body_of(link) >= 0, "the link does not move with the arm");
+  return T_carrier_link_[static_cast<std::size_t>(link)];
 }
 
 bool RobotModel::has_home(std::string_view name) const { return setup_.home.count(name) > 0; }

@@ -8,6 +8,8 @@
 #include "canopeer/base/expected.h"
 #include "canopeer/geometry/pose.h"
 #include "canopeer/robot/configuration.h"
+#include "canopeer/robot/endless_joints.h"
+#include "canopeer/robot/joint_limits.h"
 #include "canopeer/robot/kinematics/arm_chain.h"
 #include "canopeer/robot/robot_description.h"
 
@@ -27,6 +29,10 @@ struct RobotSetup {
   std::string travel_joint;             ///< prismatic; empty: no such axis
   std::string lift_joint;               ///< prismatic; empty: no such axis
   Pose T_world_root = Pose::Identity();
+  /// Where joints stand that nothing here moves, rad or m. Others stand at 0, or at their limit
+  /// next to it.
+  std::map<std::string, double> standing;
+  std::map<std::string, Pose> standing_poses;  ///< the same of planar and floating joints
   std::map<std::string, Configuration, std::less<>> home;  ///< named states, e.g. "side_1"
   std::vector<Box> workspace;        ///< one per side: where the camera may be, arm base frame
   std::vector<Box> sampling_region;  ///< one per side: where targets are, arm base frame
@@ -34,25 +40,24 @@ struct RobotSetup {
                    ///< blocks. Empty: no such place is known
 };
 
-/// Kinematic limits of the arm joints, one entry a joint; m instead of rad where it is prismatic.
-struct JointLimits {
-  Configuration lower;         ///< rad
-  Configuration upper;         ///< rad
-  Configuration velocity;      ///< rad/s
-  Configuration acceleration;  ///< rad/s²
-};
-
 /// Kinematics of an arm with a camera on a trolley. Immutable, so safe to share between threads.
 class RobotModel {
  public:
   /// Checks that the description is one tree, and that the setup's names are in it with the right
-  /// types. Arm joints must have finite limits, and home states must lie within them. The error
-  /// names what is wrong.
+  /// types. Arm joints must have limits (revolute ones may turn without end), and home states must
+  /// lie within them; one that is out by no more than kLimitTolerance is moved to the limit. The
+  /// error names all that is wrong with the joints. What is odd is added to the description's
+  /// notices.
   [[nodiscard]] static Expected<RobotModel> make(RobotDescription description, RobotSetup setup);
 
   [[nodiscard]] int dof() const { return static_cast<int>(limits_.lower.size()); }
   [[nodiscard]] JointType arm_joint_type(int joint) const { return nodes_[arm_nodes_[joint]].type; }
   [[nodiscard]] const JointLimits& limits() const { return limits_; }
+  /// The limits, with −π … π for joints that turn without end: each place once. To draw from.
+  [[nodiscard]] const JointLimits& span() const { return span_; }
+  /// Which joints turn without end.
+  [[nodiscard]] const EndlessJoints& endless() const { return endless_; }
+  /// Up to kLimitTolerance.
   [[nodiscard]] bool within_limits(const Configuration& q) const;
   [[nodiscard]] const RobotSetup& setup() const { return setup_; }
   [[nodiscard]] const RobotDescription& description() const { return description_; }
@@ -83,20 +88,28 @@ class RobotModel {
 
   /// One stretch of the chain: what lies between two joints, seen from the first.
   struct Hop {
-    int after_joint = 0;         ///< arm joint the stretch starts at
-    Vec3 offset = Vec3::Zero();  ///< from its frame's origin to the next frame's, m
-    Vec3 axis = Vec3::UnitZ();   ///< its axis in the same frame
+    int joint = -1;      ///< arm joint that moves the frame it starts at; −1: a fixed frame
+    double share = 0.0;  ///< by how much: 1, or the size of a following joint's multiplier
+    bool slides = false;
+    Vec3 offset = Vec3::Zero();  ///< from that frame's origin to the next frame's, m
+    Vec3 axis = Vec3::UnitZ();   ///< axis of the joint that moves it, in the same frame
     double slide = 0.0;          ///< what a prismatic joint at the end adds at most, m
   };
-  /// The stretches from the first arm joint to `link`, fixed joints on the way included.
+  /// The stretches from the base link to `link`, fixed joints on the way included. The first leads
+  /// to the first joint that moves with the arm; the last starts at the link itself and has no
+  /// length.
   [[nodiscard]] std::vector<Hop> arm_hops(int link) const;
+  /// Whether joints follow arm joints (URDF: mimic).
+  [[nodiscard]] bool has_followers() const { return has_followers_; }
+  /// Whether moving `link_b` always takes `link_a` along.
+  [[nodiscard]] bool carried_by(int link_a, int link_b) const;
 
   /// Links in an order in which parents come before children; link indices below refer to it.
   [[nodiscard]] const std::vector<Link>& links() const { return links_; }
   /// Index of a link; −1 when there is none of that name.
   [[nodiscard]] int link_index(std::string_view name) const;
-  /// Number of arm joints between the base and the link: it moves with joints 0 … n − 1. 0: it does
-  /// not move with the arm.
+  /// It moves with none but arm joints 0 … n − 1: those between base and link, and what joints on
+  /// the way follow. 0: it does not move with the arm.
   [[nodiscard]] int arm_joints_before(int link) const { return nodes_[link].arm_joints_before; }
   /// Whether the two links can collide: rigidly joined and disabled pairs cannot.
   [[nodiscard]] bool pair_checked(int link_a, int link_b) const;
@@ -125,13 +138,22 @@ class RobotModel {
     moving_chain_.poses(q, T_root, T);
   }
 
-  /// The arm's bodies, base to tool: what each arm joint carries up to the next one, as one piece.
-  /// Their poses, those of the joints' links, given the one of the base link. Allocates nothing;
-  /// `T` has room for dof() poses.
+  /// A body is what nothing moves against each other, as one piece. Each arm joint carries one, and
+  /// each joint that follows one (decision 49). Parents come first.
+  [[nodiscard]] int bodies() const { return body_chain_.size(); }
+  static constexpr int kMaxBodies = kMaxArmJoints + ArmChain::kMaxFollowers;
+  /// Poses of the bodies, those of body_link(), given the one of the base link. Allocates nothing;
+  /// `T` has room for bodies() poses.
   void body_poses(const Configuration& q, const Pose& T_world_base, Pose* T) const {
-    camera_chain_.poses(q, T_world_base, T);
+    body_chain_.poses(q, T_world_base, T);
   }
-  /// Of a link that moves with the arm: where it sits in its body, arm_joints_before(link) − 1.
+  /// The body a link is part of; −1: it does not move with the arm.
+  [[nodiscard]] int body_of(int link) const { return nodes_[link].body; }
+  /// The link at the root of a body, which the joint carries.
+  [[nodiscard]] int body_link(int body) const {
+    return body_links_[static_cast<std::size_t>(body)];
+  }
+  /// Of a link that moves with the arm: where it sits in its body.
   [[nodiscard]] Pose T_body_link(int link) const;
 
   /// A named home state; the name must exist (see has_home).
@@ -151,15 +173,27 @@ class RobotModel {
     JointType type = JointType::kFixed;
     Drive drive = Drive::kNone;
     int arm_joint = -1;
+    bool follows = false;  // at multiplier · position + offset of what drives it
+    double multiplier = 1.0;
+    double offset = 0.0;
+    int own_joints_before = 0;  // arm joints between base and link
     int arm_joints_before = 0;
     int rigid_group = 0;
+    int body = -1;
+  };
+  struct Mover {  // a segment of camera_chain_
+    int node = 0;
+    bool first = true;  // that its arm joint moves
   };
 
   RobotModel() = default;
   [[nodiscard]] Expected<void> order_links();
   [[nodiscard]] Expected<void> assign_roles();
-  [[nodiscard]] Expected<void> check_setup() const;
-  void compile_chains();
+  [[nodiscard]] Expected<void> find_paths();
+  [[nodiscard]] Expected<void> check_setup();
+  [[nodiscard]] Expected<void> compile_chains();
+  [[nodiscard]] std::vector<Pose> place_on_carriers() const;
+  int add_to_chain(ArmChain& chain, int parent, const Pose& T_parent_joint, const Node& node) const;
   void collect_pairs();
   void leave_neighbours_out();
   [[nodiscard]] Pose T_parent_link(const Node& node, const TrolleyState& trolley) const;
@@ -167,6 +201,9 @@ class RobotModel {
   RobotDescription description_;
   RobotSetup setup_;
   JointLimits limits_;
+  JointLimits span_;
+  EndlessJoints endless_;
+  bool has_followers_ = false;
   Joint travel_axis_;
   Joint lift_axis_;
   std::vector<Link> links_;
@@ -179,12 +216,18 @@ class RobotModel {
   ArmChain moving_chain_;              // parallel to moving_links_
   std::vector<int> moving_links_;
   int moving_root_ = 0;
-  ArmChain camera_chain_;  // a segment per arm joint, seen from the base link
+  ArmChain body_chain_;  // a segment per body, seen from the base link
+  std::vector<int> body_links_;
+  std::vector<Pose> T_carrier_link_;  // in its body, or in the base link if it rests (trolley at 0)
+  ArmChain camera_chain_;             // a segment per moving joint, seen from the base link
+  std::vector<Mover> camera_movers_;  // parallel to it
   Pose T_last_camera_ = Pose::Identity();
 };
 
 /// Σ|Δq|, rad: the joint distance of the paper's thresholds. A metre of a prismatic joint counts as
-/// a radian: a radian moves the camera of an arm stretched out by a metre that far.
+/// a radian: a radian moves the camera of an arm stretched out by a metre that far. It is the
+/// length of the motion from `a` to `b`; how far two places are from each other:
+/// EndlessJoints::distance.
 [[nodiscard]] double joint_distance(const Configuration& a, const Configuration& b);
 
 }  // namespace canopeer

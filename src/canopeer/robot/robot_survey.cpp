@@ -17,7 +17,7 @@ constexpr double kFarthest = 0.6;
 Configuration draw_configuration(const RobotModel& robot, Rng& rng) {
   Configuration q(robot.dof());
   for (int i = 0; i < q.size(); ++i)
-    q[i] = rng.uniform(robot.limits().lower[i], robot.limits().upper[i]);
+    q[i] = rng.uniform(robot.span().lower[i], robot.span().upper[i]);
   return q;
 }
 
@@ -131,10 +131,9 @@ ReachSurvey survey_reach(const RobotModel& robot, const ArmIk& ik, int side, int
   const Box& region = robot.sampling_region(side);
   const CollisionChecker checker(robot, {});
   const std::string home_name = "side_" + std::to_string(side);
-  const Configuration home =
-      robot.has_home(home_name)
-          ? robot.home(home_name)
-          : Configuration((robot.limits().lower + robot.limits().upper) / 2.0);
+  const Configuration home = robot.has_home(home_name)
+                                 ? robot.home(home_name)
+                                 : Configuration((robot.span().lower + robot.span().upper) / 2.0);
   Rng rng(seed, "reach", static_cast<std::uint64_t>(side));
   ReachSurvey survey;
   std::vector<Configuration> found;

@@ -66,7 +66,7 @@ Expected<void> self_test(const IkSolver& ik, const RobotModel& robot) {
   for (int trial = 0; trial < kSelfTests; ++trial) {
     Configuration q(robot.dof());
     for (int i = 0; i < q.size(); ++i)
-      q[i] = rng.uniform(robot.limits().lower[i], robot.limits().upper[i]);
+      q[i] = rng.uniform(robot.span().lower[i], robot.span().upper[i]);
     const Pose T = robot.T_base_camera(q);
     found.clear();
     ik.solve(T, q, found);

@@ -4,6 +4,7 @@
 #include <thread>
 #include <utility>
 
+#include "canopeer/base/exact_text.h"
 #include "canopeer/config/robot_file.h"
 
 namespace canopeer {
@@ -19,8 +20,10 @@ void put_on_the_wall_clock(MissionFile& file, int threads) {
 
 /// The home states of the sides a mission visits must exist before anything moves.
 Expected<void> check_sides(const MissionFile& file, const RobotModel& robot) {
-  const auto outside = [](const Joint& axis, double value) {
-    return value < axis.lower - 1e-9 || value > axis.upper + 1e-9;
+  const auto beyond = [](const char* name, const Joint& axis, double value) -> std::string {
+    if (value >= axis.lower - kLimitTolerance && value <= axis.upper + kLimitTolerance) return {};
+    return std::string(" (") + name + " " + exact_text(value) + " m, limits " +
+           exact_text(axis.lower) + " ... " + exact_text(axis.upper) + " m)";
   };
   for (const auto& segment : file.mission.segments) {
     const std::string home = "side_" + std::to_string(segment.side);
@@ -28,10 +31,11 @@ Expected<void> check_sides(const MissionFile& file, const RobotModel& robot) {
       return fail(file.robot.string() + ": has no boxes or home state for " + home +
                   ", which the mission visits");
     }
-    if (outside(robot.travel_axis(), segment.trolley.travel_m) ||
-        outside(robot.lift_axis(), segment.trolley.lift_m)) {
+    const std::string where = beyond("travel", robot.travel_axis(), segment.trolley.travel_m) +
+                              beyond("lift", robot.lift_axis(), segment.trolley.lift_m);
+    if (!where.empty()) {
       return fail("stops_travel_m, lifts_m: " + segment.name +
-                  " is beyond the limits of the trolley's axes in " + file.robot.string());
+                  " is beyond the limits of the trolley's axes in " + file.robot.string() + where);
     }
   }
   return {};
@@ -101,6 +105,10 @@ Expected<std::unique_ptr<Stage>> Stage::make(MissionFile file, const StageReques
   auto ik = ArmIk::make(*robot);
   if (!ik) return tl::unexpected(ik.error());
   if (auto ok = check(file, *robot, registries); !ok) return tl::unexpected(ok.error());
+  for (const std::string& notice : robot->description().notices) {
+    if (request.callbacks.on_notice)
+      request.callbacks.on_notice(file.robot.filename().string() + ": " + notice);
+  }
   std::unique_ptr<Stage> stage(
       new Stage(std::move(file), std::move(*robot), std::move(*ik), registries));
   auto site = registries.sites.make(request.site, {stage->file_, stage->robot_, request.callbacks});

@@ -88,7 +88,7 @@ class ReleasedSearch {
     Reached r = at(from);
     r.expanded = false;
     r.from = from;
-    r.cost_rad += joint_distance(graph_.node(from).view.q, node.view.q);
+    r.cost_rad += graph_.distance_rad(from, edge.to);
     r.edge_time_s = edge.time_s;
     r.new_unknown = covered_.count_new(node.cast->unknown);
     r.unknown += r.new_unknown;

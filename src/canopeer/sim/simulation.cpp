@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "canopeer/base/exact_text.h"
 #include "canopeer/base/rng.h"
 #include "canopeer/geometry/state_archive.h"
 #include "canopeer/render/renderer.h"
@@ -81,7 +82,8 @@ class Simulation::SimArm : public Arm {
 
   Expected<double> start(const JointPath& path) override {
     const std::vector<Configuration>& waypoints = path.waypoints;
-    if (waypoints.empty() || joint_distance(waypoints.front(), state_.q) > 1e-6) {
+    const EndlessJoints& endless = state_.robot.endless();
+    if (waypoints.empty() || endless.distance(waypoints.front(), state_.q) > 1e-6) {
       return fail("a motion must begin where the arm is");
     }
     for (const Configuration& q : waypoints) {
@@ -128,11 +130,11 @@ class Simulation::SimTrolley : public Trolley {
     const Joint& travel = state_.robot.travel_axis();
     const Joint& lift = state_.robot.lift_axis();
     const auto outside = [](const Joint& axis, double value) {
-      return value < axis.lower - 1e-9 || value > axis.upper + 1e-9;
+      return value < axis.lower - kLimitTolerance || value > axis.upper + kLimitTolerance;
     };
     if (outside(travel, goal.travel_m) || outside(lift, goal.lift_m)) {
-      return fail("the goal is beyond the axes' limits (travel " + std::to_string(goal.travel_m) +
-                  " m, lift " + std::to_string(goal.lift_m) + " m)");
+      return fail("the goal is beyond the axes' limits (travel " + exact_text(goal.travel_m) +
+                  " m, lift " + exact_text(goal.lift_m) + " m)");
     }
     const auto time = [](const Joint& axis, double distance) {
       return distance == 0.0

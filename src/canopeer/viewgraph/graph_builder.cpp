@@ -41,7 +41,9 @@ GraphBuilder::GraphBuilder(ViewGraph& graph, const SegmentFrame& frame, const Ro
       sampler_(frame, robot, ik, options.sampler),
       options_(options),
       seed_(seed),
-      start_(kNoNode) {}
+      start_(kNoNode) {
+  graph.set_endless(robot.endless());
+}
 
 void GraphBuilder::set_targets(const VoxelMap& map, const FrontierTargets& targets,
                                const std::vector<NodeId>& keep) {
@@ -183,7 +185,7 @@ void GraphBuilder::propose_joints(NodeId id, std::vector<Joint>& joints, WorkMet
   const bool start_is_lonely =
       start_ != kNoNode && !graph_->node(start_).removed && open_ways(start_) < options_.neighbors;
   if (start_is_lonely && !start_proposed &&
-      joint_distance(q, graph_->node(start_).view.q) <= options_.max_start_distance_rad) {
+      graph_->distance_rad(id, start_) <= options_.max_start_distance_rad) {
     joints.push_back({id, start_});
   }
 }
@@ -192,20 +194,24 @@ void GraphBuilder::check_joints(std::vector<Joint>& joints, const CollisionCheck
                                 WorkMeter& work) const {
   tbb::parallel_for(std::size_t{0}, joints.size(), [&](std::size_t i) {
     Joint& joint = joints[i];
-    joint.free = checker.edge_free(graph_->node(joint.a).view.q, graph_->node(joint.b).view.q,
-                                   &joint.states_checked);
+    joint.free = checker.edge_free(begin_of(joint), end_of(joint), &joint.states_checked);
   });
   for (const auto& joint : joints) {
     work.add(Work::state_check, joint.states_checked);
-    if (options_.on_edge)
-      options_.on_edge(graph_->node(joint.a).view.q, graph_->node(joint.b).view.q, joint.free);
+    if (options_.on_edge) options_.on_edge(begin_of(joint), end_of(joint), joint.free);
   }
 }
 
+const Configuration& GraphBuilder::begin_of(const Joint& joint) const {
+  return graph_->node(joint.a).view.q;
+}
+
+Configuration GraphBuilder::end_of(const Joint& joint) const {
+  return robot_->endless().nearest(graph_->node(joint.b).view.q, begin_of(joint));
+}
+
 void GraphBuilder::connect(const Joint& joint) {
-  const double time_s =
-      motion_time(graph_->node(joint.a).view.q, graph_->node(joint.b).view.q, robot_->limits());
-  graph_->connect(joint.a, joint.b, time_s);
+  graph_->connect(joint.a, joint.b, motion_time(begin_of(joint), end_of(joint), robot_->limits()));
 }
 
 }  // namespace canopeer

@@ -98,6 +98,9 @@ class GraphBuilder {
   void check_joints(std::vector<Joint>& joints, const CollisionChecker& checker,
                     WorkMeter& work) const;
   void connect(const Joint& joint);
+  /// The motion along it, the shorter way round.
+  [[nodiscard]] const Configuration& begin_of(const Joint& joint) const;
+  [[nodiscard]] Configuration end_of(const Joint& joint) const;
   /// Edges to views not taken yet.
   [[nodiscard]] int open_ways(NodeId id) const;
   /// A kind has its share of max_nodes.

@@ -95,10 +95,7 @@ std::vector<ViewGraph::Neighbor> ViewGraph::nearest_of(const Configuration& q, s
   std::vector<Neighbor> found;
   const auto dof = static_cast<std::size_t>(q.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    double distance = 0.0;
-    for (std::size_t j = 0; j < dof; ++j) {
-      distance += std::abs(q_[i * dof + j] - q[static_cast<Eigen::Index>(j)]);
-    }
+    const double distance = endless_.distance(&q_[i * dof], q);
     if (distance > max_distance_rad) continue;
     const auto id = static_cast<NodeId>(i);
     if (nodes_[i].removed || id == except || (nodes_[i].visited && !visited_too)) continue;

@@ -53,6 +53,9 @@ struct SimilarityLimits {
 /// writing.
 class ViewGraph {
  public:
+  /// Joints that turn without end count the shorter way round; none by default.
+  void set_endless(const EndlessJoints& endless) { endless_ = endless; }
+
   NodeId add(ViewPose view);
   /// An edge both ways; nothing happens when it is there already.
   void connect(NodeId a, NodeId b, double time_s);
@@ -72,6 +75,10 @@ class ViewGraph {
   [[nodiscard]] int open_views(TargetKind kind) const;
   [[nodiscard]] int edge_count() const { return edges_; }
   [[nodiscard]] std::optional<double> edge_time(NodeId a, NodeId b) const;
+  /// Σ|Δq| between two views, rad.
+  [[nodiscard]] double distance_rad(NodeId a, NodeId b) const {
+    return endless_.distance(node(a).view.q, node(b).view.q);
+  }
 
   /// A node, and how far it is.
   struct Neighbor {
@@ -115,6 +122,7 @@ class ViewGraph {
   void drop_half_edge(NodeId from, NodeId to);
   [[nodiscard]] bool has_similar_as_published(const ViewPose& view, double below) const;
 
+  EndlessJoints endless_;
   std::vector<ViewNode> nodes_;
   // Searched from end to end for every candidate, so they lie close together; by node.
   std::vector<double> q_;

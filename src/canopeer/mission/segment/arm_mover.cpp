@@ -65,7 +65,7 @@ Expected<void> ArmMover::go_home(const Configuration& home, const CollisionCheck
   if (way.size() > 1) {
     if (auto ok = move("home", way, checker); !ok) return ok;
   }
-  if (joint_distance(way.back(), home) > 1e-9) {
+  if (robot_.endless().distance(way.back(), home) > 1e-9) {
     return fail("segment " + std::to_string(cursor_.segment) +
                 ": no collision-free way home was found; is the home state of the next segment "
                 "blocked by plants?");

@@ -203,7 +203,8 @@ Expected<void> SegmentRunner::take(const ViewMotion& motion) {
 
 /// The planner knows no way on. At another place it may: home is one that can always be reached.
 Expected<void> SegmentRunner::recover() {
-  if (joint_distance(tools_.arm.where(), frame_.home) < kAtHome) {
+  const EndlessJoints& endless = tools_.robot.model.endless();
+  if (endless.distance(tools_.arm.where(), frame_.home) < kAtHome) {
     tools_.time.pass(1.0);
     return {};
   }

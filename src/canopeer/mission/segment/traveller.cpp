@@ -8,13 +8,13 @@ namespace canopeer {
 
 Traveller::Traveller(const RobotModel& robot, const MotionPlannerOptions& options,
                      std::uint64_t seed)
-    : planner_(robot, options), seed_(seed) {}
+    : planner_(robot, options), endless_(robot.endless()), seed_(seed) {}
 
 std::vector<Configuration> Traveller::way_home(const Configuration& q, const Configuration& home,
                                                const CollisionChecker& checker, WorkMeter& work) {
   constexpr double kThere = 1e-9;
   std::vector<Configuration> back = {q};
-  if (joint_distance(q, home) < kThere) return back;
+  if (endless_.distance(q, home) < kThere) return back;
   for (auto step = state_.way.rbegin();; ++step) {
     MotionPlanStats stats;
     const auto plan = planner_.plan(back.back(), home, checker,
@@ -25,7 +25,9 @@ std::vector<Configuration> Traveller::way_home(const Configuration& q, const Con
       return back;
     }
     if (step == state_.way.rend()) return back;
-    if (joint_distance(*step, back.back()) > kThere) back.push_back(*step);
+    // An arm may count its turns anew, so the way is not one line of real numbers.
+    const Configuration before = endless_.nearest(*step, back.back());
+    if (joint_distance(before, back.back()) > kThere) back.push_back(before);
   }
 }
 

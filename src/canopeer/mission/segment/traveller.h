@@ -20,7 +20,7 @@ class Traveller {
 
   /// Joint waypoints from `q` to `home`, both included. Never fails, since the way back is free as
   /// far as anyone knew when it was taken; a goal that is not on it is then out of reach and the
-  /// last waypoint differs from `home`.
+  /// last waypoint is another place than `home`.
   [[nodiscard]] std::vector<Configuration> way_home(const Configuration& q,
                                                     const Configuration& home,
                                                     const CollisionChecker& checker,
@@ -45,6 +45,7 @@ class Traveller {
 
  private:
   MotionPlanner planner_;
+  EndlessJoints endless_;
   std::uint64_t seed_;
   State state_;
 };

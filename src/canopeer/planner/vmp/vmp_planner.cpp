@@ -81,7 +81,7 @@ Decision VmpPlanner::decide(const Configuration& q, WorkMeter& work) {
       if (path_.empty()) return hold();
     }
     const PathStep step = path_.front();
-    if (edge_clear(at_, step.node, work)) return go(step);
+    if (edge_clear(at_, step.node, work)) return go(q, step);
     graph_.remove_edge(at_, step.node);
     ++counts_.blocked_edges;
     path_.clear();
@@ -186,7 +186,7 @@ void VmpPlanner::arrive(const Configuration& q, WorkMeter& work) {
   const NodeId expected = goal_.value_or(at_);
   goal_.reset();
   if (started_ &&
-      joint_distance(q, graph_.node(expected).view.q) <= options_.arrival_tolerance_rad) {
+      endless().distance(q, graph_.node(expected).view.q) <= options_.arrival_tolerance_rad) {
     at_ = expected;
     graph_.node(at_).visited = true;
     return;
@@ -205,7 +205,9 @@ void VmpPlanner::insert_off_pose(const Configuration& q, WorkMeter& work) {
   if (path_.empty()) return;
   const NodeId next = path_.front().node;
   if (edge_clear(at_, next, work)) {
-    graph_.connect(at_, next, motion_time(q, graph_.node(next).view.q, scene_.robot->limits()));
+    graph_.connect(
+        at_, next,
+        motion_time(q, endless().nearest(graph_.node(next).view.q, q), scene_.robot->limits()));
   } else {
     path_.clear();
   }
@@ -233,8 +235,7 @@ void VmpPlanner::plan(WorkMeter& work) {
 
 bool VmpPlanner::look_ahead_used_up() const {
   if (path_.empty() || executed_rad_ == 0.0) return false;  // one edge is always taken
-  const double next =
-      joint_distance(graph_.node(at_).view.q, graph_.node(path_.front().node).view.q);
+  const double next = graph_.distance_rad(at_, path_.front().node);
   const bool old = options_.replan_after_s > 0.0 && path_age_s_ > options_.replan_after_s;
   return old || executed_rad_ + next > options_.look_ahead_rad;
 }
@@ -242,7 +243,7 @@ bool VmpPlanner::look_ahead_used_up() const {
 bool VmpPlanner::edge_clear(NodeId a, NodeId b, WorkMeter& work) const {
   int states = 0;
   const Configuration& q_a = graph_.node(a).view.q;
-  const Configuration& q_b = graph_.node(b).view.q;
+  const Configuration q_b = endless().nearest(graph_.node(b).view.q, q_a);
   const bool clear = scene_.checker->edge_free(q_a, q_b, &states);
   work.add(Work::state_check, states);
   // The sphere cover rounds up. Close to leaves that would hold the arm where it is, so the real
@@ -264,17 +265,19 @@ bool VmpPlanner::judged_clear(const Configuration& a, const Configuration& b,
   return true;
 }
 
-Decision VmpPlanner::go(const PathStep& step) {
+/// Along the edge from where the arm is, `q`, whole turns from the node or not.
+Decision VmpPlanner::go(const Configuration& q, const PathStep& step) {
   const ViewNode& from = graph_.node(at_);
   const ViewNode& to = graph_.node(step.node);
   Decision decision;
   decision.action = Decision::Action::move;
-  decision.motion.waypoints = {from.view.q, to.view.q};
+  decision.motion.waypoints = {endless().nearest(from.view.q, q),
+                               endless().goal(q, from.view.q, to.view.q)};
   decision.motion.T_world_camera = to.view.T_world_camera;
   decision.motion.kind = to.view.kind;
   if (options_.search != VmpOptions::Search::random_walk)
     decision.motion.predicted_gain = step.new_unknown;
-  executed_rad_ += joint_distance(from.view.q, to.view.q);
+  executed_rad_ += graph_.distance_rad(at_, step.node);
   goal_ = step.node;
   path_.pop_front();
   waited_s_ = 0.0;

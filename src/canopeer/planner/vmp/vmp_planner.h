@@ -80,8 +80,9 @@ class VmpPlanner : public Planner {
   [[nodiscard]] bool edge_clear(NodeId a, NodeId b, WorkMeter& work) const;
   [[nodiscard]] bool judged_clear(const Configuration& a, const Configuration& b,
                                   WorkMeter& work) const;
-  Decision go(const PathStep& step);
+  Decision go(const Configuration& q, const PathStep& step);
   Decision hold();
+  [[nodiscard]] const EndlessJoints& endless() const { return scene_.robot->endless(); }
 
   VmpOptions options_;
   PlanningScene scene_;

@@ -155,7 +155,7 @@ bool CollisionChecker::pair_free(const Obstacle& obstacle, const ArmLink& arm_li
 }
 
 [[gnu::always_inline]] inline bool CollisionChecker::look_at_state(const Configuration& q) const {
-  Pose T_world_body[kMaxArmJoints];
+  Pose T_world_body[RobotModel::kMaxBodies];
   robot_->body_poses(q, T_world_base_, T_world_body);
 
   if (map_ != nullptr) {

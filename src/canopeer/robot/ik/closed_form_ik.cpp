@@ -11,6 +11,8 @@ constexpr double kSame = 1e-9;      // configurations nearer to each other than 
 constexpr int kSamplesOfALead = 9;  // positions of a rail, evenly spread over its length
 constexpr int kMostLeadSamples = 81;
 
+bool endless(const ArmGeometry& geometry, int joint) { return std::isinf(geometry.lower[joint]); }
+
 /// Evenly spread positions of the joints before the closed form.
 std::vector<Configuration> spread(const ArmGeometry& geometry, int leads) {
   std::vector<Configuration> samples;
@@ -22,8 +24,10 @@ std::vector<Configuration> spread(const ArmGeometry& geometry, int leads) {
   while (index[leads - 1] < each) {
     Configuration sample(leads);
     for (int i = 0; i < leads; ++i)
-      sample[i] =
-          geometry.lower[i] + (geometry.upper[i] - geometry.lower[i]) * index[i] / (each - 1.0);
+      sample[i] = endless(geometry, i)
+                      ? 2.0 * kPi * index[i] / each
+                      : geometry.lower[i] +
+                            (geometry.upper[i] - geometry.lower[i]) * index[i] / (each - 1.0);
     samples.push_back(sample);
     for (int i = 0; i < leads; ++i) {
       if (++index[i] < each || i + 1 == leads) break;
@@ -129,6 +133,10 @@ void ClosedFormIk::for_each_lead(const Configuration& reference, Solve&& solve) 
   Configuration near = reference;
   for (std::size_t k = 0; k == 0 || k <= lead_samples_.size(); ++k) {
     if (k > 0) near.head(leads_) = lead_samples_[k - 1];
+    for (int i = 0; i < leads_; ++i) {
+      if (k > 0 && endless(geometry_, i))
+        bring_near(near[i], reference[i], geometry_.lower[i], geometry_.upper[i]);
+    }
     Pose T_base_tail = Pose::Identity();
     for (int i = 0; i < leads_; ++i)
       T_base_tail =

@@ -24,7 +24,7 @@ class IkSolver {
 struct ArmGeometry {
   std::vector<RobotModel::AxisLine> axes;
   Pose T_base_camera = Pose::Identity();  ///< at q = 0
-  Configuration lower;
+  Configuration lower;                    ///< −∞ where a joint turns without end
   Configuration upper;
 };
 

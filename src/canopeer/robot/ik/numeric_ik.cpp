@@ -47,7 +47,7 @@ NumericIk::NumericIk(const RobotModel& robot) : robot_(robot) {
   for (int k = 0; k < kTableSize; ++k) {
     Configuration q(robot_.dof());
     for (int i = 0; i < q.size(); ++i)
-      q[i] = rng.uniform(robot_.limits().lower[i], robot_.limits().upper[i]);
+      q[i] = rng.uniform(robot_.span().lower[i], robot_.span().upper[i]);
     const Pose T = robot_.T_base_camera(q);
     for (int i = 0; i < 3; ++i) {
       camera_[i].push_back(static_cast<float>(T.translation()[i]));
@@ -165,7 +165,8 @@ void NumericIk::search(const Goal& goal, const Configuration& reference, int sta
     }
     const bool known = std::any_of(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(),
                                    [&](const Configuration& other) {
-                                     return (other - q).lpNorm<Eigen::Infinity>() < kDistinct;
+                                     const Configuration near = robot_.endless().nearest(other, q);
+                                     return (near - q).lpNorm<Eigen::Infinity>() < kDistinct;
                                    });
     if (!known) out.push_back(q);
   }

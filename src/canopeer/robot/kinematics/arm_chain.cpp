@@ -18,7 +18,7 @@ using Column = FourDoubles;
 constexpr double kSnap = 1e-12;
 
 /// Room for the angles in steps of four.
-constexpr int kAngles = (kMaxArmJoints + 3) / 4 * 4;
+constexpr int kAngles = (kMaxArmJoints + ArmChain::kMaxFollowers + 3) / 4 * 4;
 
 Pose snapped(Pose T) {
   for (int i = 0; i < 9; ++i) {
@@ -46,7 +46,7 @@ bool swaps_axes(const Eigen::Matrix3d& R) {
 }  // namespace
 
 int ArmChain::add(int parent, const Pose& T_parent_joint, JointType type, const Vec3& axis,
-                  int arm_joint) {
+                  int drive) {
   CANOPEER_CHECK(parent < size(), "parents come first");
   Segment segment;
   General general;
@@ -60,9 +60,9 @@ int ArmChain::add(int parent, const Pose& T_parent_joint, JointType type, const 
   }
   general.T_parent_joint = snapped(general.T_parent_joint);
   general.axis = axis;
-  general.fixed = arm_joint < 0;
+  general.fixed = drive < 0;
   general.turns = !general.fixed && type == JointType::kRevolute;
-  segment.arm_joint = std::max(0, arm_joint);
+  segment.drive = std::max(0, drive);
   segment.offset_axis = offset_axis_of(general.T_parent_joint.translation());
   Vec3::Map(segment.offset) = general.T_parent_joint.translation();
   segment.slides = !general.fixed && type == JointType::kPrismatic;
@@ -93,6 +93,12 @@ int ArmChain::add(int parent, const Pose& T_parent_joint, JointType type, const 
   return size() - 1;
 }
 
+int ArmChain::add_follower(int arm_joint, double multiplier, double offset) {
+  CANOPEER_CHECK(followers_.size() < kMaxFollowers, "no room for another joint that follows");
+  followers_.push_back({arm_joint, multiplier, offset});
+  return dof_ + static_cast<int>(followers_.size()) - 1;
+}
+
 void ArmChain::turn_any(std::size_t segment, const Eigen::Matrix4d& parent, double sine,
                         double cosine, Eigen::Matrix4d& own) const {
   const General& general = general_[segment];
@@ -115,8 +121,8 @@ void ArmChain::turn_any(std::size_t segment, const Eigen::Matrix4d& parent, doub
         (segment.parent < 0 ? T_root : T[segment.parent]).matrix();
     const double* const parent = parent_matrix.data();
     double* const own = T[i].matrix().data();
-    const double sine = motions.sines[segment.arm_joint];
-    const double cosine = motions.cosines[segment.arm_joint];
+    const double sine = motions.sines[segment.drive];
+    const double cosine = motions.cosines[segment.drive];
     if (segment.kind == Kind::kSwapAndTurn) {
       // A swap of axes and a turn about one of them, in one: two columns mix, one is copied.
       const double s = segment.turn_sign * sine;
@@ -146,10 +152,9 @@ void ArmChain::turn_any(std::size_t segment, const Eigen::Matrix4d& parent, doub
                 segment.offset[segment.offset_axis];
     }
     if (segment.slides) {
-      origin +=
-          motions.q[segment.arm_joint] * (load_lanes<FourDoubles>(own) * segment.along[0] +
-                                          load_lanes<FourDoubles>(own + 4) * segment.along[1] +
-                                          load_lanes<FourDoubles>(own + 8) * segment.along[2]);
+      origin += motions.q[segment.drive] * (load_lanes<FourDoubles>(own) * segment.along[0] +
+                                            load_lanes<FourDoubles>(own + 4) * segment.along[1] +
+                                            load_lanes<FourDoubles>(own + 8) * segment.along[2]);
     }
     store_lanes<FourDoubles>(origin, own + 12);
   }
@@ -165,12 +170,15 @@ void ArmChain::follow_narrow(const Motions& motions, const Pose& T_root, Pose* T
 }
 
 void ArmChain::poses(const Configuration& q, const Pose& T_root, Pose* T) const {
-  alignas(32) double angles[kAngles] = {};
+  alignas(32) double angles[kAngles];
   alignas(32) double sines[kAngles];
   alignas(32) double cosines[kAngles];
-  const int dof = static_cast<int>(q.size());
-  for (int i = 0; i < dof; ++i) angles[i] = q[i];
-  sin_cos(angles, dof, sines, cosines);
+  int drives = static_cast<int>(q.size());
+  for (int i = 0; i < drives; ++i) angles[i] = q[i];
+  for (const Follower& follower : followers_)
+    angles[drives++] = follower.multiplier * q[follower.arm_joint] + follower.offset;
+  for (int i = drives; i % 4 != 0; ++i) angles[i] = 0.0;
+  sin_cos(angles, drives, sines, cosines);
   if (has_wide_registers()) {
     follow_wide({angles, sines, cosines}, T_root, T);
   } else {

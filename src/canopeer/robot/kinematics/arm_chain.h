@@ -12,9 +12,20 @@ namespace canopeer {
 /// together. Immutable once built, so safe to share between threads; allocates nothing.
 class ArmChain {
  public:
+  /// Most joints that may follow arm joints.
+  static constexpr int kMaxFollowers = 22;
+
+  /// `dof`: how many entries a configuration has.
+  explicit ArmChain(int dof = 0) : dof_(dof) {}
+
   /// Appends a segment. `parent`: an earlier segment, or −1 for the frame the chain hangs on.
-  /// `arm_joint`: which entry of a configuration drives it; −1: a fixed joint. Returns its index.
-  int add(int parent, const Pose& T_parent_joint, JointType type, const Vec3& axis, int arm_joint);
+  /// `drive`: which entry of a configuration drives it, or what add_follower() gave; −1: a fixed
+  /// joint. Returns its index.
+  int add(int parent, const Pose& T_parent_joint, JointType type, const Vec3& axis, int drive);
+
+  /// A drive at multiplier · (entry `arm_joint` of a configuration) + offset; at most
+  /// kMaxFollowers.
+  int add_follower(int arm_joint, double multiplier, double offset);
 
   [[nodiscard]] int size() const { return static_cast<int>(segments_.size()); }
 
@@ -28,7 +39,7 @@ class ArmChain {
   enum class Kind { kSwap, kSwapAndTurn, kAny };
   struct Segment {
     int parent = -1;
-    int arm_joint = 0;  // 0 too where there is none
+    int drive = 0;  // 0 too where there is none
     Kind kind = Kind::kSwap;
     bool slides = false;
     // Axis axis[k] / 4 is sign[k] times the parent's from[k] / 4 (places in a matrix of four rows).
@@ -49,7 +60,13 @@ class ArmChain {
     bool turns = false;
   };
 
-  struct Motions {  // of all joints: positions, and their sines and cosines
+  struct Follower {
+    int arm_joint = 0;
+    double multiplier = 1.0;
+    double offset = 0.0;
+  };
+
+  struct Motions {  // of all drives: positions, and their sines and cosines
     const double* q;
     const double* sines;
     const double* cosines;
@@ -60,6 +77,8 @@ class ArmChain {
   void turn_any(std::size_t segment, const Eigen::Matrix4d& parent, double sine, double cosine,
                 Eigen::Matrix4d& own) const;
 
+  int dof_;
+  std::vector<Follower> followers_;  // drives dof_, dof_ + 1, …
   std::vector<Segment> segments_;
   std::vector<General> general_;  // parallel to it
 };
