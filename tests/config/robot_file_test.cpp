@@ -182,7 +182,7 @@ TEST_F(RobotMeshes, ThatAreMissingAreNamedWithTheLineAndWhereTheyWereLookedFor) 
   const auto robot = parse("package://my_arm/meshes/none.stl");
   ASSERT_FALSE(robot);
   EXPECT_EQ(
-      robot.error().message.rfind("a.urdf:2: link 'a': mesh 'package://my_arm/meshes/none.stl' "
+      robot.error().message.rfind("a.urdf:3: link 'a': mesh 'package://my_arm/meshes/none.stl' "
                                   "not found; looked in ",
                                   0),
       0U)
@@ -329,7 +329,7 @@ TEST(Urdf, ReadsFramesAxesLimitsAndShapes) {
 TEST(Srdf, NamesTheLineOfAPairThatIsNone) {
   const std::string message = message_with(
       "ur5e_trolley.srdf", replaced(shipped("ur5e_trolley.srdf"), "link2=\"", "link_2=\""));
-  EXPECT_EQ(message, "ur5e_trolley.srdf:6: <disable_collisions> needs link2");
+  EXPECT_EQ(message, "ur5e_trolley.srdf:5: <disable_collisions> needs link2");
 }
 
 }  // namespace

@@ -63,6 +63,7 @@ constexpr HeaderOrigin kOrigins[] = {
     {"spawn.h", ""},
     {"unistd.h", ""},
     {"immintrin.h", ""},
+    {"arm_neon.h", ""},
     {"fcntl.h", ""},
     {"poll.h", ""},
     {"dlfcn.h", ""},

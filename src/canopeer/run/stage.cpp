@@ -105,10 +105,6 @@ Expected<std::unique_ptr<Stage>> Stage::make(MissionFile file, const StageReques
   auto ik = ArmIk::make(*robot);
   if (!ik) return tl::unexpected(ik.error());
   if (auto ok = check(file, *robot, registries); !ok) return tl::unexpected(ok.error());
-  for (const std::string& notice : robot->description().notices) {
-    if (request.callbacks.on_notice)
-      request.callbacks.on_notice(file.robot.filename().string() + ": " + notice);
-  }
   std::unique_ptr<Stage> stage(
       new Stage(std::move(file), std::move(*robot), std::move(*ik), registries));
   auto site = registries.sites.make(request.site, {stage->file_, stage->robot_, request.callbacks});

@@ -91,9 +91,10 @@ TEST(FieldLimits, TheRobotFileMaySayTheVelocities) {
 TEST(FieldLimits, AShapeOfNoSizeIsLeftOutAndSaid) {
   SmallArm arm;
   arm.replace("<box size='0.06 0.06 0.06'/>", "<box size='0 0 0'/>");
-  EXPECT_EQ(arm.notices(), "link 'waist', collision: a shape of no size is left out");
+  EXPECT_EQ(arm.notices(), "small.urdf:3: link 'waist': a <box> of no size is left out");
   arm.replace("<box size='0 0 0'/>", "<box size='0 0 -1'/>");
-  EXPECT_EQ(arm.error(), "small.urdf:3: link 'waist': a shape without size");
+  EXPECT_EQ(arm.error(),
+            "small.urdf:3: link 'waist': <box> needs three numbers in size, none below 0");
 }
 
 TEST(FieldLimits, AnEffortIsNotAskedFor) {

@@ -96,11 +96,12 @@ void judge(const RobotModel& robot, int states, int edges, std::uint64_t seed) {
 
   int free_edges = 0;
   int blocked_inside = 0;  // between two free ends
-  for (int trial = 0; trial < 100 * edges && free_edges < edges; ++trial) {
+  for (int trial = 0; trial < 4000; ++trial) {
+    if (free_edges >= edges && blocked_inside > 0) break;
     const Configuration a = draw_place(random, robot);
     Configuration b = a;
     for (int i = 0; i < b.size(); ++i)
-      b[i] = std::clamp(a[i] + random.uniform(-0.7, 0.7), robot.limits().lower[i],
+      b[i] = std::clamp(a[i] + random.uniform(-1.2, 1.2), robot.limits().lower[i],
                         robot.limits().upper[i]);
     if (!fast.state_free(a) || !fast.state_free(b)) continue;
     if (!fast.edge_free(a, b)) {
@@ -114,7 +115,7 @@ void judge(const RobotModel& robot, int states, int edges, std::uint64_t seed) {
       ASSERT_FALSE(report.any()) << report.pair << " at " << q.transpose();
     }
   }
-  EXPECT_EQ(free_edges, edges);
+  EXPECT_GE(free_edges, edges);
   EXPECT_GT(blocked_inside, 0);
 }
 
@@ -172,9 +173,9 @@ TEST(FieldManyBodies, AsManyAsMayFollowAreTaken) {
   std::string fingers;
   for (int i = 0; i < ArmChain::kMaxFollowers; ++i) {
     const std::string name = "finger" + std::to_string(i);
-    fingers += link_with_box(name, 0.03, 0.0, 0.0) +
+    fingers += link_with_box(name, 0.03, 0.0, 0.0, "0.01 0.01 0.01") +
                joint_line(name + "_joint", "continuous", i % 2 == 0 ? "fore" : "tool", name,
-                          "0.1 " + std::to_string(0.03 + 0.025 * (i / 2)) + " 0.05", "0 1 0",
+                          "0.1 " + std::to_string(0.06 + 0.04 * (i / 2)) + " 0.05", "0 1 0",
                           follows(i % 3 == 0 ? "j2" : "j5", 0.45 - 0.1 * (i % 5), 0.1 * i));
   }
   arm.add(fingers + row_on("tool", 20));
