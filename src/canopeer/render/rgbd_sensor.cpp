@@ -23,7 +23,8 @@ PixelLabel label_of(Ripeness ripeness) {
 
 Vec3 random_direction(Rng& rng) {
   for (;;) {
-    const Vec3 d(rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0));
+    Vec3 d;
+    for (const int axis : {2, 1, 0}) d[axis] = rng.uniform(-1.0, 1.0);
     if (d.squaredNorm() > 0.01 && d.squaredNorm() <= 1.0) return d.normalized();
   }
 }

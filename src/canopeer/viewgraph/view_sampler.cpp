@@ -68,9 +68,10 @@ std::optional<ViewSampler::Sight> ViewSampler::draw_sight(const TargetSampler& t
     const Target target = targets.draw(kind, rng);
     const Box part = part_in_reach(target.p_world);
     if (part.isEmpty()) continue;
-    const Vec3 camera_base(rng.uniform(part.min().x(), part.max().x()),
-                           rng.uniform(part.min().y(), part.max().y()),
-                           rng.uniform(part.min().z(), part.max().z()));
+    Vec3 camera_base;
+    for (const int axis : {2, 1, 0}) {
+      camera_base[axis] = rng.uniform(part.min()[axis], part.max()[axis]);
+    }
     const double distance2 = (camera_base - T_base_world_ * target.p_world).squaredNorm();
     if (distance2 >= nearest2 && distance2 <= farthest2) {
       return Sight{target, frame_->T_world_base * camera_base};

@@ -49,9 +49,10 @@ Shoot grow_stem(const PlantKind& kind, int index, double length, double azimuth,
   const double bend = (led ? 0.3 : 1.0) * length * rng.uniform(0.012, 0.045);
   const double offset = led ? 0.05 : index == 0 ? 0.0 : 0.03;
   const Vec3 base = offset * horizontal(azimuth);
+  const double sway_azimuth = rng.uniform(0.0, 2.0 * kPi);
+  const double bow_azimuth = rng.uniform(0.0, 2.0 * kPi);
   return make_shoot(base, along, length, kind.stem_radius_m * rng.uniform(0.9, 1.1),
-                    bend * horizontal(rng.uniform(0.0, 2.0 * kPi)),
-                    0.4 * bend * horizontal(rng.uniform(0.0, 2.0 * kPi)));
+                    bend * horizontal(bow_azimuth), 0.4 * bend * horizontal(sway_azimuth));
 }
 
 Shoot grow_fork(const Shoot& stem, double length, double azimuth, Rng& rng) {

@@ -65,9 +65,10 @@ TriangleMesh make_dry_leaf(const Shoot& shoot, double s, Rng& rng) {
 
 TriangleMesh make_label(const Shoot& shoot, double s, Rng& rng) {
   TriangleMesh mesh = make_box(Box(Vec3(0.008, -0.0005, -0.03), Vec3(0.035, 0.0005, 0.03)));
+  const double tilt = rng.uniform(-0.3, 0.3);
+  const double azimuth = rng.uniform(0.0, 2.0 * kPi);
   const Pose T = Eigen::Translation3d(shoot.at(s).position) *
-                 Eigen::AngleAxisd(rng.uniform(0.0, 2.0 * kPi), Vec3::UnitZ()) *
-                 Eigen::AngleAxisd(rng.uniform(-0.3, 0.3), Vec3::UnitX());
+                 Eigen::AngleAxisd(azimuth, Vec3::UnitZ()) * Eigen::AngleAxisd(tilt, Vec3::UnitX());
   TriangleMesh placed;
   placed.append(mesh, T);
   return with_flat_faces(placed);
@@ -76,15 +77,18 @@ TriangleMesh make_label(const Shoot& shoot, double s, Rng& rng) {
 ScenePart make_one(const Plant& plant, int turn, Rng& rng) {
   const Shoot& shoot = plant.shoots[rng.index(plant.shoots.size())];
   switch (turn % 3) {
-    case 0:
-      return make_part(make_clip(shoot, shoot.length_m * rng.uniform(0.2, 0.75), rng),
-                       vary_color(kClipRed, 0.06, 0.05, rng));
-    case 1:
-      return make_part(make_dry_leaf(shoot, shoot.length_m * rng.uniform(0.12, 0.35), rng),
-                       vary_color(kDryLeaf, 0.12, 0.06, rng));
-    default:
-      return make_part(make_label(shoot, shoot.length_m * rng.uniform(0.1, 0.4), rng),
-                       vary_color(kLabelPink, 0.05, 0.03, rng));
+    case 0: {
+      const Rgb color = vary_color(kClipRed, 0.06, 0.05, rng);
+      return make_part(make_clip(shoot, shoot.length_m * rng.uniform(0.2, 0.75), rng), color);
+    }
+    case 1: {
+      const Rgb color = vary_color(kDryLeaf, 0.12, 0.06, rng);
+      return make_part(make_dry_leaf(shoot, shoot.length_m * rng.uniform(0.12, 0.35), rng), color);
+    }
+    default: {
+      const Rgb color = vary_color(kLabelPink, 0.05, 0.03, rng);
+      return make_part(make_label(shoot, shoot.length_m * rng.uniform(0.1, 0.4), rng), color);
+    }
   }
 }
 
