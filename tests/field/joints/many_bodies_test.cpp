@@ -65,6 +65,14 @@ Configuration draw_place(Rng& random, const RobotModel& robot) {
   return q;
 }
 
+DistanceField field_of(const VoxelMap& map) {
+  DistanceFieldOptions options;
+  options.world = Box(Vec3::Constant(-1.6), Vec3::Constant(1.6));
+  DistanceField field(options, map.resolution_m());
+  field.rebuild(map);
+  return field;
+}
+
 /// What the fast check calls free is free on the exact shapes: states, and edges all along.
 void judge(const RobotModel& robot, int states, int edges, std::uint64_t seed) {
   Rng random(seed);
@@ -73,10 +81,7 @@ void judge(const RobotModel& robot, int states, int edges, std::uint64_t seed) {
     const Vec3 p(random.uniform(-0.8, 0.8), random.uniform(0.3, 1.0), random.uniform(0.1, 1.1));
     map.set_occupancy_log_odds(voxel_at(p, map.resolution_m()), 2.0F);
   }
-  DistanceFieldOptions options;
-  options.world = Box(Vec3::Constant(-1.6), Vec3::Constant(1.6));
-  DistanceField field(options, map.resolution_m());
-  field.rebuild(map);
+  const DistanceField field = field_of(map);
   CollisionChecker fast(robot, {});
   fast.set_map(&field);
   const ExactChecker exact(robot);
@@ -96,7 +101,7 @@ void judge(const RobotModel& robot, int states, int edges, std::uint64_t seed) {
 
   int free_edges = 0;
   int blocked_inside = 0;  // between two free ends
-  for (int trial = 0; trial < 4000; ++trial) {
+  for (int trial = 0; trial < 8000; ++trial) {
     if (free_edges >= edges && blocked_inside > 0) break;
     const Configuration a = draw_place(random, robot);
     Configuration b = a;
@@ -150,11 +155,63 @@ TEST(FieldManyBodies, StandWhereTheirLinksDo) {
 }
 
 TEST(FieldManyBodies, AreFreeWhereTheJudgeSaysSoWithAClearanceForEachLink) {
-  judge(arm_with_parts(7), 300, 15, 2);
+  judge(arm_with_parts(7), 2000, 150, 2);
 }
 
 TEST(FieldManyBodies, AreFreeWhereTheJudgeSaysSoWithAClearanceForEachBody) {
-  judge(arm_with_parts(20), 300, 15, 3);
+  judge(arm_with_parts(20), 2000, 150, 3);
+}
+
+/// A hand of 0.3 m on a clock over the forearm, which the last joint drives eight times as fast. At
+/// 0 it points away from the forearm. The joint itself moves nothing but the tool's parts. A peg on
+/// the forearm can stand in the hand's way: far out, and not where halving the
+/// way some times leads to.
+RobotModel arm_with_clock(bool peg) {
+  SmallArm arm;
+  if (peg) {
+    arm.add(
+        link_with_box("peg", 0.2186, -0.0364, 0.08, "0.02 0.02 0.04") +
+        "<joint name='peg_fix' type='fixed'><parent link='fore'/><child link='peg'/></joint>\n");
+  }
+  arm.add(link_with_box("hand", 0.18, 0.0, 0.0, "0.3 0.02 0.02") +
+          joint_line("clock", "continuous", "base", "hand", "0.1 0.25 0.78", "0 0 1",
+                     follows("j6", 8.0, 1.5708)) +
+          row_on("tool", 40));
+  return arm.model();
+}
+
+/// At zero, and with the last joint turned so that the hand goes round by `turns`.
+struct HandMotion {
+  Configuration a = Configuration::Zero(6);
+  Configuration b = Configuration::Zero(6);
+  explicit HandMotion(double turns) { b[5] = turns * 6.2831853 / 8.0; }
+};
+
+TEST(FieldManyBodies, OneThatMeetsALinkThatStandsStillBetweenTwoFreeEndsIsSeen) {
+  const RobotModel robot = arm_with_clock(true);
+  const CollisionChecker checker(robot, {});
+  const HandMotion whole(1.0);
+  const HandMotion quarter(0.25);
+  EXPECT_TRUE(checker.state_free(whole.a));
+  EXPECT_TRUE(checker.state_free(whole.b));
+  EXPECT_TRUE(checker.edge_free(quarter.a, quarter.b));
+  EXPECT_FALSE(checker.edge_free(whole.a, whole.b));
+}
+
+TEST(FieldManyBodies, OneThatMeetsALeafBetweenTwoFreeEndsIsSeen) {
+  const RobotModel robot = arm_with_clock(false);
+  VoxelMap map;
+  map.set_occupancy_log_odds(voxel_at(Vec3(0.2186, -0.0364, 0.78), map.resolution_m()), 2.0F);
+  const DistanceField field = field_of(map);
+  CollisionChecker checker(robot, {});
+  const HandMotion whole(1.0);
+  const HandMotion quarter(0.25);
+  EXPECT_TRUE(checker.edge_free(whole.a, whole.b));
+  checker.set_map(&field);
+  EXPECT_TRUE(checker.state_free(whole.a));
+  EXPECT_TRUE(checker.state_free(whole.b));
+  EXPECT_TRUE(checker.edge_free(quarter.a, quarter.b));
+  EXPECT_FALSE(checker.edge_free(whole.a, whole.b));
 }
 
 TEST(FieldManyBodies, AFollowerMayStandBetweenTheBaseAndTheFirstArmJoint) {
@@ -165,7 +222,7 @@ TEST(FieldManyBodies, AFollowerMayStandBetweenTheBaseAndTheFirstArmJoint) {
       link_with_box("plate", 0.0, 0.0, 0.0) +
       joint_line("turn", "continuous", "base", "plate", "0 0 0.05", "0 0 1", follows("j6", 0.5)) +
       row_on("tool", 30));
-  judge(arm.model(), 150, 6, 4);
+  judge(arm.model(), 1000, 60, 4);
 }
 
 TEST(FieldManyBodies, AsManyAsMayFollowAreTaken) {
@@ -181,7 +238,7 @@ TEST(FieldManyBodies, AsManyAsMayFollowAreTaken) {
   arm.add(fingers + row_on("tool", 20));
   const RobotModel robot = arm.model();
   EXPECT_EQ(robot.bodies(), 6 + ArmChain::kMaxFollowers);
-  judge(robot, 150, 6, 5);
+  judge(robot, 1000, 60, 5);
 }
 
 }  // namespace
