@@ -1,12 +1,10 @@
 #include "canopeer/config/camera_section.h"
 
-
 #include "canopeer/config/robot_file.h"
 #include "canopeer/geometry/angles.h"
 
 namespace canopeer {
 namespace {
-
 
 /// Field of view and depth range at 640 × 480. D400 family data sheet: the D435 has 75° × 62° at
 /// this size and no depth nearer than 0.175 m; of the D405 the middle 640 of 848 columns with 84°.

@@ -15,7 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-
 /// Order per stop: side 1, side 2, the next lift height, side 1, side 2, the next stop.
 void read_segments(YamlMap& file, MissionOptions& mission) {
   const auto travels = file.required_numbers("stops_travel_m", 0, {-1000, 1000});
@@ -95,8 +94,10 @@ void read_search(YamlMap search, VmpOptions& o) {
   p.max_views = search.integer("max_views", p.max_views, 1, 1000);
   p.observe_s = search.number("observe_s", p.observe_s, {0.0, 100.0});
   p.reparent = search.boolean("reparent", p.reparent);
-  p.fan.fov_x_rad = search.number("fan_fov_x_deg", p.fan.fov_x_rad / kDegree, {1.0, 170.0}) * kDegree;
-  p.fan.fov_y_rad = search.number("fan_fov_y_deg", p.fan.fov_y_rad / kDegree, {1.0, 170.0}) * kDegree;
+  p.fan.fov_x_rad =
+      search.number("fan_fov_x_deg", p.fan.fov_x_rad / kDegree, {1.0, 170.0}) * kDegree;
+  p.fan.fov_y_rad =
+      search.number("fan_fov_y_deg", p.fan.fov_y_rad / kDegree, {1.0, 170.0}) * kDegree;
   p.fan.columns = search.integer("fan_columns", p.fan.columns, 1, 1000);
   p.fan.rows = search.integer("fan_rows", p.fan.rows, 1, 1000);
   p.fan.max_unknown_m = search.number("max_unknown_m", p.fan.max_unknown_m, {0.01, 10.0});

@@ -1,6 +1,5 @@
 #include "canopeer/config/scan_rows_file.h"
 
-
 #include "canopeer/config/imported_world.h"
 #include "canopeer/config/yaml_reader.h"
 #include "canopeer/geometry/angles.h"
@@ -9,7 +8,6 @@ namespace canopeer {
 namespace {
 
 namespace fs = std::filesystem;
-
 
 ColorRange read_color(YamlMap map) {
   ColorRange range;

@@ -9,8 +9,8 @@ namespace {
 
 using test::corner_obj;
 using test::has;
-using test::notices_of;
 using test::mesh;
+using test::notices_of;
 using test::one_link;
 
 TEST(Package, IsFoundByTheNameInItsPackageXml) {
