@@ -16,8 +16,8 @@ fi
 SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || stat -c %Y CHANGELOG.md)}
 export SOURCE_DATE_EPOCH
 cmake -S . -B build/package -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=/usr \
-  -DCANOPEER_BUILD_TESTS=OFF -DCANOPEER_PACKAGES=ON >/dev/null
-cmake --build build/package -j 2
+  -DCANOPEER_BUILD_TESTS=OFF -DCANOPEER_UNITY_BUILD=ON -DCANOPEER_PACKAGES=ON >/dev/null
+cmake --build build/package -j "$(scripts/jobs.sh)"
 rm -rf build/packages
 (cd build/package && cpack -G DEB -B "$PWD/../packages" >cpack.log 2>&1) || { cat build/package/cpack.log >&2; exit 1; }
 rm -rf build/packages/_CPack_Packages

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <sstream>
 
+#include "command_tree.h"
+
 namespace canopeer::app {
 namespace {
 
 using Lines = std::vector<std::string>;
-
-bool takes_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
 
 /// "m", "cm", "mm" of "TEXT:{m,cm,mm}"; nothing where no list is given.
 Lines listed_values(const std::string& type) {
@@ -60,10 +60,6 @@ Lines options_of(const CLI::App& command) {
     }
   }
   return lines;
-}
-
-std::vector<const CLI::App*> subcommands(const CLI::App& command) {
-  return command.get_subcommands([](const CLI::App*) { return true; });
 }
 
 Lines commands_of(const CLI::App& command) {

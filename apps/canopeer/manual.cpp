@@ -8,14 +8,11 @@
 #include <vector>
 
 #include "canopeer/base/atomic_file.h"
+#include "command_tree.h"
 #include "exit_status.h"
 
 namespace canopeer::app {
 namespace {
-
-std::vector<const CLI::App*> subcommands(const CLI::App& command) {
-  return command.get_subcommands([](const CLI::App*) { return true; });
-}
 
 /// Text that is no request and has no ligatures: dashes and backslashes as typed.
 std::string roff(const std::string& text) {
@@ -44,8 +41,6 @@ std::string heading(const std::string& text) { return ".SH " + text + "\n"; }
 std::string item(const std::string& term, const std::string& text) {
   return ".TP\n" + term + "\n" + text + "\n";
 }
-
-bool takes_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
 
 /// "canopeer scene render", from `app` down.
 std::string full_name(const CLI::App& app, const CLI::App& command) {

@@ -27,7 +27,7 @@ std::string format(const char* pattern, double a, double b, double c) {
   return text;
 }
 
-std::string json_of(const char* name, const Spread& s) {
+std::string json_spread(const char* name, const Spread& s) {
   return "\"" + std::string(name) +
          "\": " + format("{\"p10\": %.4f, \"p50\": %.4f, \"p90\": %.4f}", s.p10, s.p50, s.p90);
 }
@@ -90,9 +90,10 @@ std::string as_text(const OcclusionReport& r) {
 std::string as_json(const OcclusionReport& r) {
   return "{\"fruits\": " + std::to_string(r.fruits) +
          ", \"fruits_without_view\": " + std::to_string(r.without_view) + ", " +
-         json_of("best", r.best) + ", " + json_of("median", r.median) + ", " +
-         json_of("frontal", r.frontal) + ", " + json_of("share_above_30", r.share_above_30) + ", " +
-         json_of("union_surface", r.union_surface) +
+         json_spread("best", r.best) + ", " + json_spread("median", r.median) + ", " +
+         json_spread("frontal", r.frontal) + ", " +
+         json_spread("share_above_30", r.share_above_30) + ", " +
+         json_spread("union_surface", r.union_surface) +
          format(", \"mean_union\": %.4f, \"mean_union_frontal\": %.4f, \"hidden_from_front\": %.4f",
                 r.mean_union, r.mean_union_frontal, r.hidden_from_front) +
          format(", \"hidden_but_reachable\": %.4f}", r.hidden_but_reachable, 0.0, 0.0);

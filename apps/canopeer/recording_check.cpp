@@ -103,7 +103,7 @@ Expected<std::vector<std::string>> check_recording(const Recording& recording) {
   }
   const auto pairs = pairs_of(recording);
   if (!pairs) return tl::unexpected(pairs.error());
-  const PoseVerdict verdict = judge_poses(*pairs);
+  const PoseVerdict verdict = judge_poses(*pairs, source.order_is_said);
   const std::string seen =
       "of what " + std::to_string(verdict.as_read.pairs) + " pairs of frames see in common ";
   const auto only = [&](const std::string& when, double share, const std::string& advice) {

@@ -222,7 +222,7 @@ void check_reach(const RobotModel& robot, const ArmIk& ik, int views,
   }
 }
 
-std::string percent(int part, int whole) {
+std::string share_of(int part, int whole) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f %%", 100.0 * part / std::max(1, whole));
   return text;
@@ -247,7 +247,7 @@ std::vector<LinkPairSurvey> check_pairs(const RobotModel& robot, int states, Fin
       findings.wrong(names + " always touch: disable the pair in the SRDF, or mend a shape");
     else if (pair.solids_always_touch)
       findings.wrong(names + " are never called free, though they touch in " +
-                     percent(pair.touching, pair.states) +
+                     share_of(pair.touching, pair.states) +
                      " of the states: hollows of meshes are filled up in fast checks; split the "
                      "mesh into convex parts, or disable the pair in the SRDF");
     else if (!pair.disabled && pair.touching > kOften * pair.states)

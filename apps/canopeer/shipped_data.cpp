@@ -58,6 +58,8 @@ fs::path mission_file_of(const std::string& given) {
   }
   std::string known;
   for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
+  if (known.empty())
+    known = "none in " + (shipped_data() / "missions").string() + " (CANOPEER_DATA)";
   stop_with(kBadInput,
             {given + ": there is no such file, and no mission of that name; there is: " + known});
 }

@@ -57,7 +57,7 @@ TEST(RobotCheck, SaysWhatIsWrongAndWhere) {
                       "--states", "500", "--out", (directory / "out").string()});
   EXPECT_EQ(result.status, 1);
   for (const char* what :
-       {"home state 'side_1' at lift 0.00 m", "base_link / shoulder_link are joined by a joint",
+       {"home state 'side_1' at lift 0.00 m", "no srdf: pairs that a joint connects are left out",
         "side 2: no place in the workspace is 0.3-0.6 m from the sampling region"})
     EXPECT_NE(result.out.find(what), std::string::npos) << what << "\n" << result.out;
 }

@@ -6,7 +6,8 @@
 namespace canopeer {
 
 /// Text of a file whatever program wrote it: without a byte order mark, as UTF-8, with lines that
-/// end with \n or \r\n. UTF-16 is told by its mark. `bytes` must outlive it.
+/// end with a line feed, with or without a carriage return before it. UTF-16 is told by its mark.
+/// `bytes` must outlive it.
 class PlainText {
  public:
   explicit PlainText(std::string_view bytes);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "canopeer/base/percent_encoding.h"
 #include "canopeer/config/yaml_document.h"
 #include "canopeer/import/mesh_file.h"
 
@@ -24,25 +25,6 @@ std::string lower(std::string text) {
     return static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
   });
   return text;
-}
-
-int hex_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  const char small = lower(std::string(1, c))[0];
-  return small >= 'a' && small <= 'f' ? small - 'a' + 10 : -1;
-}
-
-/// "my%20arm" is "my arm".
-std::string percent_decoded(const std::string& text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool coded = text[i] == '%' && i + 2 < text.size() && hex_digit(text[i + 1]) >= 0 &&
-                       hex_digit(text[i + 2]) >= 0;
-    out +=
-        coded ? static_cast<char>(16 * hex_digit(text[i + 1]) + hex_digit(text[i + 2])) : text[i];
-    if (coded) i += 2;
-  }
-  return out;
 }
 
 /// What a name may be spelled for, as it stands first.

@@ -51,7 +51,7 @@ int scan_of(YamlMap& map, const std::string& key, const std::string& name,
 }
 
 /// `count` plants along y, taking the row's scans in turn.
-void read_row(YamlMap& row, ScanRowsOptions& options) {
+void read_scan_row(YamlMap& row, ScanRowsOptions& options) {
   const double x = row.required_number("x_m", {-1000, 1000});
   const double y = row.required_number("y_from_m", {-1000, 1000});
   const double z = row.number("z_m", 0.0, {-100, 100});
@@ -86,7 +86,7 @@ Expected<ScanRowsOptions> read(YamlMap file, const fs::path& path) {
   for (YamlMap& scan : file.maps("scans")) {
     options.scans.push_back(read_scan(scan, path.parent_path()));
   }
-  for (YamlMap& row : file.maps("rows")) read_row(row, options);
+  for (YamlMap& row : file.maps("rows")) read_scan_row(row, options);
   for (YamlMap& plant : file.maps("plants")) read_plant(plant, options);
   options.floor = file.boolean("floor", options.floor);
   read_fruit_sizes(file, options.fruits);

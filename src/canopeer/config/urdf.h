@@ -13,7 +13,7 @@ namespace canopeer {
 /// How shapes are read.
 struct UrdfOptions {
   MeshSearch meshes;
-  /// Links without a <collision> take their visual shapes for it; those must be readable then.
+  /// Links without a `<collision>` take their visual shapes for it; those must be readable then.
   bool visual_for_collision = false;
 };
 

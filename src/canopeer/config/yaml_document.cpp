@@ -166,7 +166,10 @@ Expected<std::shared_ptr<YamlDocument>> YamlDocument::parse(std::string_view tex
   auto root = parse_yaml_value(text, name, true);
   if (!root) return fail(root.error().message);
   if ((*root)->kind != YamlNode::Kind::kMap)
-    return fail(name + ": expected a mapping (key: value) at the top");
+    return fail(name + ": expected a mapping (key: value) at the top" +
+                (text.starts_with('<') ? ". This is XML: a URDF is named in a robot file (urdf:), "
+                                         "a world in a mission (world.import)"
+                                       : ""));
   auto document = std::make_shared<YamlDocument>();
   document->name = std::move(name);
   document->root = std::move(*root);

@@ -9,22 +9,13 @@
 #include <string>
 
 #include "canopeer/base/atomic_file.h"
+#include "canopeer/import/meshes/gltf_constants.h"
 #include "canopeer/import/meshes/texture_file.h"
 
 namespace canopeer {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// Numbers of the glTF 2.0 specification.
-constexpr int kFloat = 5126;
-constexpr int kUnsignedInt = 5125;
-constexpr int kUnsignedByte = 5121;
-constexpr int kVertexData = 34962;
-constexpr int kIndexData = 34963;
-constexpr std::uint32_t kMagic = 0x46546c67;
-constexpr std::uint32_t kJsonChunk = 0x4e4f534a;
-constexpr std::uint32_t kBinaryChunk = 0x004e4942;
 
 static_assert(std::endian::native == std::endian::little, "glTF is little-endian");
 
@@ -97,8 +88,8 @@ int GlbWriter::add_vectors(const std::vector<Eigen::Vector3f>& vectors, bool bou
     box.extend(turned.back());
   }
   Json accessor = {
-      {"bufferView", add_view(turned.data(), turned.size() * sizeof(turned[0]), kVertexData)},
-      {"componentType", kFloat},
+      {"bufferView", add_view(turned.data(), turned.size() * sizeof(turned[0]), gltf::kVertexData)},
+      {"componentType", gltf::kFloat},
       {"count", turned.size()},
       {"type", "VEC3"}};
   if (bounds) {
@@ -194,21 +185,22 @@ Expected<int> GlbWriter::add_mesh(const ScenePart& part, const std::string& name
     std::vector<Eigen::Vector2f> uv;
     for (const auto& p : part.uv) uv.emplace_back(p.x(), 1.0F - p.y());  // glTF counts v downwards
     attributes["TEXCOORD_0"] =
-        add_accessor(add_view(uv.data(), uv.size() * sizeof(uv[0]), kVertexData), kFloat, uv.size(),
-                     "VEC2", false);
+        add_accessor(add_view(uv.data(), uv.size() * sizeof(uv[0]), gltf::kVertexData),
+                     gltf::kFloat, uv.size(), "VEC2", false);
   }
   if (!part.vertex_colors.empty()) {
     std::string colors;
     for (const Rgb& c : part.vertex_colors) {
       colors += {static_cast<char>(c.r), static_cast<char>(c.g), static_cast<char>(c.b), '\xff'};
     }
-    attributes["COLOR_0"] = add_accessor(add_view(colors.data(), colors.size(), kVertexData),
-                                         kUnsignedByte, part.vertex_colors.size(), "VEC4", true);
+    attributes["COLOR_0"] =
+        add_accessor(add_view(colors.data(), colors.size(), gltf::kVertexData), gltf::kUnsignedByte,
+                     part.vertex_colors.size(), "VEC4", true);
   }
   const int indices =
       add_accessor(add_view(mesh.triangles.data(),
-                            mesh.triangles.size() * sizeof(mesh.triangles[0]), kIndexData),
-                   kUnsignedInt, 3 * mesh.triangles.size(), "SCALAR", false);
+                            mesh.triangles.size() * sizeof(mesh.triangles[0]), gltf::kIndexData),
+                   gltf::kUnsignedInt, 3 * mesh.triangles.size(), "SCALAR", false);
   json_["meshes"].push_back({{"name", name},
                              {"primitives", Json::array({{{"attributes", attributes},
                                                           {"indices", indices},
@@ -286,14 +278,14 @@ Expected<std::string> GlbWriter::write() {
   const auto add_word = [&](std::uint32_t word) {
     glb.append(reinterpret_cast<const char*>(&word), sizeof word);
   };
-  add_word(kMagic);
+  add_word(gltf::kMagic);
   add_word(2);
   add_word(static_cast<std::uint32_t>(12 + 8 + text.size() + 8 + binary_.size()));
   add_word(static_cast<std::uint32_t>(text.size()));
-  add_word(kJsonChunk);
+  add_word(gltf::kJsonChunk);
   glb += text;
   add_word(static_cast<std::uint32_t>(binary_.size()));
-  add_word(kBinaryChunk);
+  add_word(gltf::kBinaryChunk);
   glb += binary_;
   return glb;
 }

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kNamesShown = 12;
+constexpr std::size_t kMissingShown = 12;
 constexpr double kFarthest_m = 1e5;      // beyond it floats have no centimetres left
 constexpr double kLongestFruit_m = 0.6;  // no fruit in a glasshouse is
 constexpr double kSmallestPlant_m = 0.01;
@@ -175,7 +175,7 @@ std::string names_in(const std::vector<PartsRow>& parts) {
   std::string text;
   std::size_t shown = 0;
   for (const std::string& name : names) {
-    if (shown++ == kNamesShown) return text + ", …";
+    if (shown++ == kMissingShown) return text + ", …";
     text += (text.empty() ? "" : ", ") + name;
   }
   return text;

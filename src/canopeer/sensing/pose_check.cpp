@@ -98,7 +98,7 @@ Pose mirrored(const Pose& pose) {
   return other;
 }
 
-PoseVerdict judge_poses(const std::vector<FramePair>& pairs) {
+PoseVerdict judge_poses(const std::vector<FramePair>& pairs, bool order_is_said) {
   const auto under = [&](const auto& meaning) {
     PairAgreement mean;
     for (const auto& [a, b] : pairs) {
@@ -111,7 +111,8 @@ PoseVerdict judge_poses(const std::vector<FramePair>& pairs) {
     if (mean.pairs > 0) mean.share /= mean.pairs;
     return mean;
   };
-  return {under([](const Pose& pose) { return pose; }), under(with_w_first), under(mirrored)};
+  return {order_is_said, under([](const Pose& pose) { return pose; }), under(with_w_first),
+          under(mirrored)};
 }
 
 std::vector<std::pair<std::size_t, std::size_t>> pairs_to_compare(const std::vector<Pose>& poses,

@@ -35,18 +35,21 @@ struct PairAgreement {
 
 /// How far the pairs agree under the poses, and under what the poses may mean instead.
 struct PoseVerdict {
+  bool order_is_said = false;  ///< of quaternions: then w_first is no explanation
   PairAgreement as_read;
   PairAgreement w_first;   ///< see with_w_first()
   PairAgreement mirrored;  ///< see mirrored()
 
   [[nodiscard]] bool order_is_wrong() const {
-    return only(w_first) && w_first.share >= mirrored.share;
+    return !order_is_said && only(w_first) && w_first.share >= mirrored.share;
   }
   [[nodiscard]] bool left_handed() const {
-    return only(mirrored) && mirrored.share > w_first.share;
+    return only(mirrored) && (order_is_said || mirrored.share > w_first.share);
   }
-  /// The poses make no sense.
-  [[nodiscard]] bool poses_are_odd() const { return as_read.pairs >= 2 && as_read.share < 0.45; }
+  /// The poses make no sense, or only what the file says they are not makes sense.
+  [[nodiscard]] bool poses_are_odd() const {
+    return (as_read.pairs >= 2 && as_read.share < 0.45) || (order_is_said && only(w_first));
+  }
 
  private:
   [[nodiscard]] bool only(const PairAgreement& other) const {
@@ -54,7 +57,9 @@ struct PoseVerdict {
            other.share - as_read.share > 0.25;
   }
 };
-[[nodiscard]] PoseVerdict judge_poses(const std::vector<FramePair>& pairs);
+/// `order_is_said`: see PoseSource.
+[[nodiscard]] PoseVerdict judge_poses(const std::vector<FramePair>& pairs,
+                                      bool order_is_said = false);
 
 /// The rotation that a quaternion written as qw qx qy qz has, when it was read as qx qy qz qw.
 [[nodiscard]] Pose with_w_first(const Pose& pose);

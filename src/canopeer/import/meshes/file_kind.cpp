@@ -47,7 +47,8 @@ constexpr std::array kSignatures = {
     Signature{0, "; FBX "sv, "FBX as text", kOtherMesh},
     Signature{0, "BLENDER"sv, "a Blender file", "; open it in Blender and export glTF (.glb)"},
     Signature{0, "DRACO"sv, "a Draco mesh", kOtherMesh},
-    Signature{0, "MM"sv, "3DS", kOtherMesh},
+    // The version chunk: "MM" before it may begin the free header of an STL file.
+    Signature{6, "\x02\0\x0a\0\0\0"sv, "3DS", kOtherMesh},
     Signature{2, "[MeshSerializer_v"sv, "an Ogre mesh",
               "; export glTF (.glb), COLLADA or OBJ from the program that made it"},
     Signature{0, "PXR-USDC"sv, "USD", kOtherMesh},

@@ -5,17 +5,13 @@
 #include <stdexcept>
 
 #include "canopeer/base/atomic_file.h"
-#include "canopeer/import/meshes/percent_encoding.h"
+#include "canopeer/base/percent_encoding.h"
+#include "canopeer/import/meshes/gltf_constants.h"
 
 namespace canopeer {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Numbers of the glTF 2.0 specification.
-constexpr std::uint32_t kMagic = 0x46546c67;
-constexpr std::uint32_t kJsonChunk = 0x4e4f534a;
-constexpr std::uint32_t kBinaryChunk = 0x004e4942;
 
 std::uint32_t word_at(std::string_view bytes, std::size_t at) {
   std::uint32_t word = 0;
@@ -79,8 +75,8 @@ GltfContainer read_gltf_container(std::string_view bytes) {
     const std::uint32_t kind = word_at(bytes, at + 4);
     at += 8;
     if (size > bytes.size() - at) throw std::runtime_error("binary glTF that is cut off");
-    if (kind == kJsonChunk && container.json.empty()) container.json = bytes.substr(at, size);
-    if (kind == kBinaryChunk && container.binary.empty()) {
+    if (kind == gltf::kJsonChunk && container.json.empty()) container.json = bytes.substr(at, size);
+    if (kind == gltf::kBinaryChunk && container.binary.empty()) {
       container.binary = bytes.substr(at, size);
     }
     if (size % 4 != 0) container.aligned = false;
@@ -91,10 +87,10 @@ GltfContainer read_gltf_container(std::string_view bytes) {
 
 std::string to_glb(const GltfContainer& container) {
   std::string chunks;
-  add_chunk(kJsonChunk, container.json, ' ', &chunks);
-  add_chunk(kBinaryChunk, container.binary, '\0', &chunks);
+  add_chunk(gltf::kJsonChunk, container.json, ' ', &chunks);
+  add_chunk(gltf::kBinaryChunk, container.binary, '\0', &chunks);
   std::string glb;
-  add_word(kMagic, &glb);
+  add_word(gltf::kMagic, &glb);
   add_word(2, &glb);
   add_word(static_cast<std::uint32_t>(12 + chunks.size()), &glb);
   return glb + chunks;

@@ -7,23 +7,17 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "canopeer/import/meshes/gltf_constants.h"
+
 namespace canopeer {
 namespace {
 
 using nlohmann::json;
 
-// Component types of the glTF 2.0 specification.
-constexpr int kByte = 5120;
-constexpr int kUnsignedByte = 5121;
-constexpr int kShort = 5122;
-constexpr int kUnsignedShort = 5123;
-constexpr int kUnsignedInt = 5125;
-constexpr int kFloat = 5126;
-
 std::size_t bytes_of(int component) {
-  if (component == kByte || component == kUnsignedByte) return 1;
-  if (component == kShort || component == kUnsignedShort) return 2;
-  if (component == kUnsignedInt || component == kFloat) return 4;
+  if (component == gltf::kByte || component == gltf::kUnsignedByte) return 1;
+  if (component == gltf::kShort || component == gltf::kUnsignedShort) return 2;
+  if (component == gltf::kUnsignedInt || component == gltf::kFloat) return 4;
   throw std::runtime_error("glTF with numbers of no known kind");
 }
 
@@ -46,15 +40,15 @@ double whole(const char* at, bool normalized) {
 
 double number_at(const char* at, int component, bool normalized) {
   switch (component) {
-    case kByte:
+    case gltf::kByte:
       return whole<std::int8_t>(at, normalized);
-    case kUnsignedByte:
+    case gltf::kUnsignedByte:
       return whole<std::uint8_t>(at, normalized);
-    case kShort:
+    case gltf::kShort:
       return whole<std::int16_t>(at, normalized);
-    case kUnsignedShort:
+    case gltf::kUnsignedShort:
       return whole<std::uint16_t>(at, normalized);
-    case kUnsignedInt:
+    case gltf::kUnsignedInt:
       return whole<std::uint32_t>(at, normalized);
     default:
       break;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "canopeer/import/meshes/percent_encoding.h"
+#include "canopeer/base/percent_encoding.h"
 
 namespace canopeer {
 namespace {

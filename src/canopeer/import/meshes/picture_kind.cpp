@@ -43,7 +43,7 @@ int byte_at(std::string_view bytes, std::size_t at) {
   return static_cast<unsigned char>(bytes[at]);
 }
 
-int word_at(std::string_view bytes, std::size_t at) {
+int two_bytes_at(std::string_view bytes, std::size_t at) {
   return byte_at(bytes, at) + 256 * byte_at(bytes, at + 1);
 }
 
@@ -58,7 +58,7 @@ bool is_tga(std::string_view bytes) {
   const int kind = byte_at(bytes, 2) & ~8;  // 8: runs of pixels
   if (!one_of(kind, {1, 2, 3}) || palette > 1 || byte_at(bytes, 2) > 11) return false;
   if (kind == 1 && (palette != 1 || !one_of(byte_at(bytes, 7), {15, 16, 24, 32}))) return false;
-  if (word_at(bytes, 12) == 0 || word_at(bytes, 14) == 0) return false;
+  if (two_bytes_at(bytes, 12) == 0 || two_bytes_at(bytes, 14) == 0) return false;
   const int bits = byte_at(bytes, 16);
   return kind == 2 ? one_of(bits, {15, 16, 24, 32}) : one_of(bits, {8, 16});
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "canopeer/base/atomic_file.h"
+#include "canopeer/import/meshes/gltf_constants.h"
 #include "canopeer/import/meshes/gltf_container.h"
 #include "canopeer/import/meshes/gltf_extensions.h"
 #include "canopeer/import/meshes/gltf_numbers.h"
@@ -21,7 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int kFloat = 5126;
 constexpr const char* kTransform = "KHR_texture_transform";
 
 /// glTF 1.0 keeps by name what later versions number.
@@ -121,7 +121,7 @@ std::size_t Plainer::add_numbers(const std::vector<float>& numbers, std::size_t 
   added_.append(reinterpret_cast<const char*>(numbers.data()), bytes);
   json& accessors = file_["accessors"];
   accessors.push_back({{"bufferView", views.size() - 1},
-                       {"componentType", kFloat},
+                       {"componentType", gltf::kFloat},
                        {"count", numbers.size() / width},
                        {"type", width == 2 ? "VEC2" : "VEC3"}});
   changed_ = true;
@@ -172,7 +172,8 @@ void Plainer::plain_attribute(const char* name, json* attributes) {
   if (attribute == attributes->end()) return;
   const auto index = attribute->get<std::size_t>();
   const json& accessor = file_.at("accessors").at(index);
-  if (accessor.at("componentType").get<int>() == kFloat && !accessor.contains("sparse")) return;
+  if (accessor.at("componentType").get<int>() == gltf::kFloat && !accessor.contains("sparse"))
+    return;
   auto known = plain_.find(index);
   if (known == plain_.end()) {
     const std::size_t width = std::string_view(name).starts_with("TEXCOORD") ? 2 : 3;

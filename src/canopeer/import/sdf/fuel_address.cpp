@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "canopeer/base/percent_encoding.h"
 #include "canopeer/base/text_lines.h"
-#include "canopeer/import/meshes/percent_encoding.h"
 
 namespace canopeer {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "canopeer/import/meshes/percent_encoding.h"
+#include "canopeer/base/percent_encoding.h"
 #include "canopeer/import/sdf/fuel_address.h"
 
 namespace canopeer {

@@ -7,7 +7,7 @@
 namespace canopeer {
 namespace {
 
-constexpr std::size_t kDeepest = 1000;  // places that hang on each other; bounds the stack
+constexpr std::size_t kMostInARow = 1000;  // places that hang on each other; bounds the stack
 constexpr SdfVersion kFirstRelativeTo{1, 7};
 
 /// T_base_place.
@@ -76,9 +76,9 @@ Expected<Pose> SdfFrames::once(const SdfPlace& place, Resolve resolve) {
   if (!fresh) {
     return fail(described(place) + ": its pose cannot be resolved: it is relative to itself");
   }
-  if (depth_ == kDeepest) {
+  if (depth_ == kMostInARow) {
     return fail(described(place) + ": its pose cannot be resolved: more than " +
-                std::to_string(kDeepest) + " others hang on each other");
+                std::to_string(kMostInARow) + " others hang on each other");
   }
   ++depth_;
   Expected<Pose> T = resolve();

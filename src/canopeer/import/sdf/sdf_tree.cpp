@@ -11,9 +11,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kDeepest = 100;       // models in models; bounds the stack
+constexpr std::size_t kDeepestModel = 100;  // models in models; bounds the stack
 constexpr std::size_t kMostModels = 50000;  // files that include each other twice grow fast
-constexpr std::size_t kNamesShown = 12;
+constexpr std::size_t kUnreadShown = 12;
 
 /// A model before its parts are looked at.
 struct ModelSource {
@@ -92,8 +92,9 @@ Expected<void> TreeReader::add_model(const ModelSource& source, SdfScope* scope)
   if (++models_ > kMostModels) {
     return fail(what + "expected at most " + std::to_string(kMostModels) + " models");
   }
-  if (depth_ == kDeepest) {
-    return fail(what + "models lie within models more than " + std::to_string(kDeepest) + " deep");
+  if (depth_ == kDeepestModel) {
+    return fail(what + "models lie within models more than " + std::to_string(kDeepestModel) +
+                " deep");
   }
   auto model = std::make_unique<SdfScope>();
   model->name = source.name;
@@ -229,10 +230,10 @@ Expected<void> TreeReader::fill(const SdfElement& element, SdfScope* scope) {
 void TreeReader::note_what_is_left_out() {
   for (const auto& [tag, names] : left_out_) {
     std::string text = std::to_string(names.size()) + " <" + tag + "> left out: ";
-    for (std::size_t i = 0; i < std::min(names.size(), kNamesShown); ++i) {
+    for (std::size_t i = 0; i < std::min(names.size(), kUnreadShown); ++i) {
       text += (i == 0 ? "" : ", ") + names[i];
     }
-    tree_.notices.push_back(text + (names.size() > kNamesShown ? ", …" : ""));
+    tree_.notices.push_back(text + (names.size() > kUnreadShown ? ", …" : ""));
   }
 }
 

@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kSide = kTileSide;
 constexpr int kLine = 64;  // bytes
-constexpr int kMaxReach = 120;
-constexpr int kMaxWide = kSide + 2 * kMaxReach;
+constexpr int kMostReach = 120;
+constexpr int kMaxWide = kSide + 2 * kMostReach;
 
 // The passes' memory, cells of 8 or 16 bits. Rows lie along x and begin and end with whole lines.
 template <typename Cell>

@@ -22,7 +22,7 @@ int threads_at_work() {
 }
 
 /// All that drawing one view shares.
-struct View {
+struct DrawnView {
   const std::vector<RasterBody>& bodies;
   const std::vector<BodyView>& places;
   const std::vector<QueuedCluster>& queue;
@@ -49,7 +49,7 @@ struct CutCluster {
   }
 };
 
-RasterCluster cluster_of(const View& view, std::size_t place) {
+RasterCluster cluster_of(const DrawnView& view, std::size_t place) {
   const QueuedCluster& queued = view.queue[place];
   const TriangleClusters& all = *view.bodies[queued.body].clusters;
   const TriangleClusters::Cluster& cluster = all.clusters[queued.cluster];
@@ -70,7 +70,7 @@ RasterCluster cluster_of(const View& view, std::size_t place) {
   return raster;
 }
 
-bool draw_cut(const View& view, const QueuedCluster& queued, RasterCluster cluster,
+bool draw_cut(const DrawnView& view, const QueuedCluster& queued, RasterCluster cluster,
               const RasterWindow& window) {
   const RasterBody& body = view.bodies[queued.body];
   const CutCluster cut{
@@ -83,7 +83,7 @@ bool draw_cut(const View& view, const QueuedCluster& queued, RasterCluster clust
 }
 
 /// Rows first … last of the picture; both at borders of tiles.
-void draw_strip(const View& view, int first_row, int last_row, DepthTiles* tiles) {
+void draw_strip(const DrawnView& view, int first_row, int last_row, DepthTiles* tiles) {
   RasterWindow window;
   window.last_column = view.camera.width - 1;
   window.first_row = first_row;
@@ -125,8 +125,8 @@ VisibleImage Rasterizer::draw(const CameraIntrinsics& camera, const Pose& T_worl
   for (std::size_t i = 0; i < column_centre.size(); ++i) {
     column_centre[i] = static_cast<float>(static_cast<double>(i) + 0.5 - camera.cx);
   }
-  const View view{bodies_,        places,        image.queue_,          camera,
-                  T_world_camera, column_centre, raster_kernels(level_)};
+  const DrawnView view{bodies_,        places,        image.queue_,          camera,
+                       T_world_camera, column_centre, raster_kernels(level_)};
   // A pixel's surface does not depend on how the picture is shared out; groups on a border are
   // prepared twice.
   const int rows_of_tiles = (camera.height + DepthTiles::kTile - 1) / DepthTiles::kTile;

@@ -7,7 +7,7 @@
 namespace canopeer {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 constexpr double kSurelyDegrees = 20.0;  // rad; no arm turns three times round and then stops
 
 bool has_range(const Joint& joint) {
@@ -27,7 +27,7 @@ class DriverLimits {
     }
     if (in_arm_ && joint_.type == JointType::kRevolute) drop_far_limits();
     const bool endless = in_arm_ && joint_.type == JointType::kRevolute &&
-                         joint_.lower == -kInfinity && joint_.upper == kInfinity;
+                         joint_.lower == -kNoLimit && joint_.upper == kNoLimit;
     const auto number = [](double value) { return std::isfinite(value); };
     std::string missing;
     const auto want = [&](bool there, const char* what) {
@@ -79,8 +79,8 @@ class DriverLimits {
       drives_.notices.push_back(joint_title(joint_) + ": its limits " + exact_text(joint_.lower) +
                                 " ... " + exact_text(joint_.upper) +
                                 " are none: it turns without end");
-    joint_.lower = -kInfinity;
-    joint_.upper = kInfinity;
+    joint_.lower = -kNoLimit;
+    joint_.upper = kNoLimit;
   }
 
   void check_range() {
@@ -109,7 +109,7 @@ class DriverLimits {
 
   /// A turn of an endless joint must be a turn of what follows it.
   void check_turns(const Joint& follower, const JointDrive& drive) {
-    if (joint_.lower != -kInfinity || joint_.upper != kInfinity) return;
+    if (joint_.lower != -kNoLimit || joint_.upper != kNoLimit) return;
     if (follower.type == JointType::kRevolute && std::round(drive.multiplier) == drive.multiplier)
       return;
     drives_.problems.push_back(joint_title(joint_) + " turns without end, but '" + follower.name +

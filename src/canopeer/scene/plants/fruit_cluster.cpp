@@ -12,7 +12,7 @@
 namespace canopeer {
 namespace {
 
-constexpr double kSpacing = 0.069;          // nearest neighbours' centres
+constexpr double kNearestCentres = 0.069;   // nearest neighbours' centres
 constexpr double kPedicelAboveTop = 0.012;  // where it leaves the shoot
 constexpr double kPedicelRadius = 0.0027;
 constexpr double kBareTip = 0.10;    // no fruit hangs from the youngest part of a shoot
@@ -33,7 +33,7 @@ bool bodies_apart(const HangingFruit& a, const HangingFruit& b) {
   const double along = 0.53 * (a.form.length_m + b.form.length_m);
   const double r = d.head<2>().norm() / across;
   const double z = std::abs(d.z()) / along;
-  return d.norm() >= kSpacing && r * r * r + z * z * z >= 1.0;
+  return d.norm() >= kNearestCentres && r * r * r + z * z * z >= 1.0;
 }
 
 double draw_height(const PlantKind& kind, Rng& rng) {

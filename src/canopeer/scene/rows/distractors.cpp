@@ -16,7 +16,7 @@ constexpr Rgb kDryLeaf{122, 70, 38};
 constexpr Rgb kLabelPink{222, 118, 140};
 constexpr Rgb kTerracotta{168, 92, 64};
 
-ScenePart make_part(TriangleMesh mesh, Rgb color) {
+ScenePart make_distractor(TriangleMesh mesh, Rgb color) {
   ScenePart part;
   part.mesh = std::move(mesh);
   part.kind = PartClass::distractor;
@@ -79,15 +79,16 @@ ScenePart make_one(const Plant& plant, int turn, Rng& rng) {
   switch (turn % 3) {
     case 0: {
       const Rgb color = vary_color(kClipRed, 0.06, 0.05, rng);
-      return make_part(make_clip(shoot, shoot.length_m * rng.uniform(0.2, 0.75), rng), color);
+      return make_distractor(make_clip(shoot, shoot.length_m * rng.uniform(0.2, 0.75), rng), color);
     }
     case 1: {
       const Rgb color = vary_color(kDryLeaf, 0.12, 0.06, rng);
-      return make_part(make_dry_leaf(shoot, shoot.length_m * rng.uniform(0.12, 0.35), rng), color);
+      return make_distractor(make_dry_leaf(shoot, shoot.length_m * rng.uniform(0.12, 0.35), rng),
+                             color);
     }
     default: {
       const Rgb color = vary_color(kLabelPink, 0.05, 0.03, rng);
-      return make_part(make_label(shoot, shoot.length_m * rng.uniform(0.1, 0.4), rng), color);
+      return make_distractor(make_label(shoot, shoot.length_m * rng.uniform(0.1, 0.4), rng), color);
     }
   }
 }
@@ -111,7 +112,7 @@ ScenePart make_pipe(double x_m, double low_y_m, double high_y_m, Rng& rng) {
     const double y = low_y_m + (high_y_m - low_y_m) * i / 16.0;
     axis.push_back({Vec3(x_m, y, kRadius + 0.02), kRadius});
   }
-  ScenePart part = make_part(make_tube(axis, 12), vary_color(kTerracotta, 0.04, 0.02, rng));
+  ScenePart part = make_distractor(make_tube(axis, 12), vary_color(kTerracotta, 0.04, 0.02, rng));
   part.plant = -1;
   return part;
 }

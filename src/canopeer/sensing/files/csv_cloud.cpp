@@ -151,14 +151,15 @@ class TableParser {
     return {};
   }
 
-  /// 0,51568,0,17767,1,06709: a whole number begins with a zero, or each second one has as many
-  /// digits, more than a colour has.
+  /// 0,51568,0,17767,1,06709: among what may be x, y and z, a whole number begins with a zero, or
+  /// each second one has as many digits, more than a colour has. Colours may follow.
   [[nodiscard]] bool looks_like_decimal_commas(const Fields& fields) const {
-    if (dialect_.separator != ',' || fields.size() < 6 || fields.size() % 2 != 0) return false;
+    if (dialect_.separator != ',' || fields.size() < 6) return false;
+    for (const auto field : fields) {
+      if (field.find('.') != std::string_view::npos) return false;
+    }
     bool leading_zero = false, as_long = fields[1].size() > 3;
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-      if (fields[i].find('.') != std::string_view::npos) return false;
-      if (i % 2 == 0) continue;
+    for (const std::size_t i : {1, 3, 5}) {
       leading_zero |= fields[i].size() > 1 && fields[i][0] == '0';
       as_long &= fields[i].size() == fields[1].size();
     }
@@ -172,6 +173,12 @@ class TableParser {
       if (has_head_line_ && lines.number() == head_line_) continue;
       if (trimmed(*line).empty() || comment_of(*line)) continue;
       if (const auto count = counts_points_ ? count_in(*line) : std::nullopt) {
+        // No point is shorter than a byte.
+        if (*count > static_cast<std::int64_t>(text_.size()) - stated_points_) {
+          return fail_at(lines.number(), "states " + std::to_string(*count) +
+                                             " points, more than the file has room for: it was "
+                                             "cut off, or the number is wrong");
+        }
         stated_points_ += *count;
         continue;
       }
@@ -185,7 +192,7 @@ class TableParser {
   }
 
   [[nodiscard]] tl::unexpected<Error> wrong_width(int line, std::size_t found) const {
-    const bool commas = dialect_.separator == ',' && found == 2 * columns_.size();
+    const bool commas = dialect_.separator == ',' && found > columns_.size();
     return fail_at(line, "expected " + std::to_string(columns_.size()) + " values, found " +
                              std::to_string(found) +
                              (commas ? "; if these are decimal commas, separate the columns by "

@@ -1,4 +1,4 @@
-#include "canopeer/import/meshes/percent_encoding.h"
+#include "canopeer/base/percent_encoding.h"
 
 #include <charconv>
 
