@@ -86,6 +86,15 @@ TEST(PoseCheck, QuaternionsWithWFirstAreFound) {
   const PoseVerdict verdict = judge_poses(wrong);
   EXPECT_GT(verdict.w_first.share, 0.9);
   EXPECT_TRUE(verdict.order_is_wrong()) << verdict.as_read.share;
+  EXPECT_FALSE(verdict.poses_are_odd()) << verdict.as_read.share;
+}
+
+TEST(PoseCheck, AnOrderThatIsSaidIsNotDoubted) {
+  const PoseVerdict verdict = judge_poses(misread(walk()), true);
+  EXPECT_FALSE(verdict.order_is_wrong());
+  EXPECT_FALSE(verdict.left_handed());
+  EXPECT_TRUE(verdict.poses_are_odd()) << verdict.as_read.share;
+  EXPECT_FALSE(judge_poses(walk(), true).poses_are_odd());
 }
 
 TEST(PoseCheck, LeftHandedPosesAreFound) {

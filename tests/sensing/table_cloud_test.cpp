@@ -132,9 +132,22 @@ TEST(TableCloud, ErrorsSayWhereAndWhatToDo) {
   expect_in("separate the columns by semicolons", error_of("x,y,z\n0,51,0,17,1,06\n"));
   expect_in("separate the columns by semicolons", error_of("0,51,0,17,1,06\n0,52,0,18,1,07\n"));
   expect_in("separate the columns by semicolons", error_of("1,5100,1,1700,1,6000\n"));
+  const std::string with_colors = "0,51,0,17,1,06,200,40,10\n0,52,0,18,1,07,200,40,10\n";
+  expect_in("a.csv:2: expected 6 values, found 9; if these are decimal commas, separate",
+            error_of("x,y,z,r,g,b\n" + with_colors));
+  expect_in("separate the columns by semicolons", error_of(with_colors));
+  expect_in("separate the columns by semicolons", error_of("1,5100,1,1700,1,6000,200,40,10\n"));
+  EXPECT_EQ(parsed("515,178,1067,200,40,100,0.5\n").cloud.points.at(0),
+            Eigen::Vector3f(515, 178, 1067));
   EXPECT_EQ(parsed("515,178,1067,200,40,100\n").cloud.points.at(0),
             Eigen::Vector3f(515, 178, 1067));
   expect_in("holds 2 of the 3 points", error_of("3\n1 2 3\n4 5 6\n"));
+  for (const char* count : {"400", "9223372036854775807"}) {
+    expect_in("a.csv:1: states " + std::string(count) + " points, more than the file has room for",
+              error_of(count + std::string("\n1 2 3\n4 5 6\n")));
+  }
+  expect_in("a.csv:3: states 9223372036854775807 points",
+            error_of("1\n1 2 3\n9223372036854775807\n4 5 6\n"));
   expect_in("no text", error_of(std::string("x,y,z\n1,2,3\0\n", 13)));
   expect_in("expected columns", error_of(""));
   expect_in("expected columns", error_of("12\n"));

@@ -20,11 +20,11 @@ struct Report {
   std::string text;
 };
 
-/// Of the folder, made by `program`.
-Report report(const fs::path& folder, const std::string& program) {
+/// Of the folder, made by `program`, which may take so long of the processor.
+Report report(const fs::path& folder, const std::string& program, int seconds = 60) {
   const std::string command = "CANOPEER='" + program +
                               "' " CANOPEER_SOURCE_DIR "/scripts/field_report.sh '" +
-                              folder.string() + "' 60 2>&1";
+                              folder.string() + "' " + std::to_string(seconds) + " 2>&1";
   Report report;
   std::FILE* const pipe = popen(command.c_str(), "r");
   char piece[256];
@@ -117,6 +117,19 @@ TEST(FieldReport, EndsWithOneWhenAnythingAborts) {
   EXPECT_EQ(broken.status, 1) << broken.text;
   EXPECT_EQ(line_about(broken, "a.ot").rfind("aborted", 0), 0U) << broken.text;
   EXPECT_EQ(report("/nonexistent", aborts.string()).status, 2);
+}
+
+TEST(FieldReport, StopsWhatTakesTooMuchOfTheProcessor) {
+  const test::TemporaryDirectory directory;
+  const fs::path folder = directory / "field";
+  fs::create_directories(folder);
+  ASSERT_TRUE(write_file(folder / "a.ot", ""));
+  const fs::path turns = directory / "turns";
+  ASSERT_TRUE(write_file(turns, "#!/bin/sh\nwhile :; do :; done\n"));
+  fs::permissions(turns, fs::perms::owner_all);
+  const Report slow = report(folder, turns.string(), 1);
+  EXPECT_EQ(slow.status, 1) << slow.text;
+  EXPECT_EQ(line_about(slow, "a.ot").rfind("slow", 0), 0U) << slow.text;
 }
 
 }  // namespace

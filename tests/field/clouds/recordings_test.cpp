@@ -128,6 +128,15 @@ TEST(Poses, ThatMakeSenseInAnotherOrderOnlyAreRefused) {
             std::string::npos);
 }
 
+TEST(Poses, WhoseOrderIsSaidAreNotRefusedForIt) {
+  const test::TemporaryDirectory directory;
+  const auto says = directory / "says.txt";
+  ASSERT_TRUE(write_file(
+      says, "# timestamp tx ty tz qx qy qz qw\n" + read_file(input("room/w_first.txt")).value()));
+  const std::string err = fuse(input("room"), {"--trajectory", says.string()}).err;
+  EXPECT_NE(err.find("says.txt: the poses do not fit what was seen"), std::string::npos) << err;
+}
+
 TEST(Poses, InMillimetresMakeANotice) {
   const std::string err = fuse_room("millimetres.txt").err;
   EXPECT_NE(err.find("the camera moves as none does"), std::string::npos) << err;
