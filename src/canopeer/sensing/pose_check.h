@@ -53,7 +53,7 @@ struct PoseVerdict {
 
  private:
   [[nodiscard]] bool only(const PairAgreement& other) const {
-    return as_read.pairs >= 2 && other.pairs >= 2 && as_read.share < 0.65 && other.share > 0.75 &&
+    return as_read.pairs >= 2 && other.pairs >= 2 && as_read.share < 0.75 && other.share > 0.75 &&
            other.share - as_read.share > 0.25;
   }
 };

@@ -124,6 +124,10 @@ TEST(Poses, ThatMakeSenseInAnotherOrderOnlyAreRefused) {
             std::string::npos)
       << w_first;
   EXPECT_NE(w_first.find("# timestamp tx ty tz qw qx qy qz"), std::string::npos) << w_first;
+  const std::string left_handed = refused("left_handed.txt");
+  EXPECT_NE(left_handed.find("only when they are taken as left-handed"), std::string::npos)
+      << left_handed;
+  EXPECT_NE(left_handed.find("a negative fy_px"), std::string::npos) << left_handed;
   EXPECT_NE(refused("too_few.txt").find("5 poses without time stamps for 6 depth images"),
             std::string::npos);
 }
