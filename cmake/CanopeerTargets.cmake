@@ -33,7 +33,7 @@ if(CANOPEER_WERROR)
   target_compile_options(canopeer_warnings INTERFACE -Werror)
 endif()
 
-# Some files of a target at a time ("unity build") cost half the processor time of one by one: what they include is read
+# Some files of a target at a time ("unity build") cost little more than half the processor time of one by one: what they include is read
 # once for all of them. Who changes code may want each alone, which also finds missing includes.
 option(CANOPEER_UNITY_BUILD "Compile several files of a target together" OFF)
 if(CANOPEER_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
