@@ -15,6 +15,6 @@ for system in "$@"; do
   [ "$release" = "$system" ] || arch=${system#*/}
   echo "== Debian $release $arch"
   scripts/in_debian.sh "$release" "$arch" bash -euc "mkdir -p out; $smoke"
-  scripts/compare_runs.sh out/smoke "build/debian/$release-$arch/canopeer/out/smoke" || status=1
+  scripts/compare_runs.sh out/smoke "${CANOPEER_DEBIAN_DIR:-build/debian/$release-$arch}/canopeer/out/smoke" || status=1
 done
 exit $status

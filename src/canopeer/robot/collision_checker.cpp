@@ -78,7 +78,6 @@ bool CollisionChecker::collect_arm_links(double sphere_excess_m) {
   radii_m_.clear();
   arm_shapes_.clear();
   sphere_shapes_.clear();
-  max_radius_m_ = 0.0;
   for (const int index : robot_->moving_links()) {
     const Link& link = robot_->links()[index];
     if (link.collision.empty()) continue;
@@ -99,7 +98,6 @@ bool CollisionChecker::collect_arm_links(double sphere_excess_m) {
     for (const Sphere& sphere : spheres) {
       centres_.push_back(T_body_link * sphere.centre);
       radii_m_.push_back(sphere.radius_m);
-      max_radius_m_ = std::max(max_radius_m_, sphere.radius_m);
     }
     if (centres_.size() > std::max<std::size_t>(kMaxSpheres, 2 * arm_shapes_.size())) return false;
     arm_link.last_sphere = static_cast<int>(centres_.size());

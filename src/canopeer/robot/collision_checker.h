@@ -36,8 +36,7 @@ class CollisionChecker {
                    const CollisionOptions& options = {});
 
   /// The map to avoid; null: none. It must outlive its use here. Where its truncation distance does
-  /// not exceed the largest sphere and padding (max_sphere_radius_m() + map_padding_m), checks are
-  /// right and slow.
+  /// not exceed the largest sphere's radius and map_padding_m together, checks are right and slow.
   void set_map(const DistanceField* map);
 
   /// No collision with the robot itself, the trolley or the map, and within the joint limits.
@@ -60,7 +59,6 @@ class CollisionChecker {
                                  int* states_checked = nullptr) const;
 
   [[nodiscard]] const CollisionOptions& options() const { return options_; }
-  [[nodiscard]] double max_sphere_radius_m() const { return max_radius_m_; }
   [[nodiscard]] int sphere_count() const { return static_cast<int>(radii_m_.size()); }
 
  private:
@@ -146,7 +144,6 @@ class CollisionChecker {
   // Per block of arm links, obstacle and arm link of the block, in steps of four: the squared
   // distance between their bounds from which on they are apart. Negative: they need not be.
   std::vector<double> apart2_m2_;
-  double max_radius_m_ = 0.0;
 };
 
 }  // namespace canopeer
