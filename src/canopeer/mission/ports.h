@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "canopeer/base/expected.h"
@@ -26,9 +28,23 @@ class Clock {
   [[nodiscard]] virtual bool simulated() const { return false; }
 };
 
+/// Why a motion of the arm ended.
+enum class MotionEnd {
+  arrived,
+  refused,    ///< the controller did not begin it
+  aborted,    ///< by the controller: a tolerance was missed, a limit reached
+  cancelled,  ///< by whoever may: a person, a watchdog of ours
+  preempted,  ///< somebody else moves the arm
+  stopped     ///< a protective or emergency stop: a person has to look
+};
+/// "arrived", "refused", …
+[[nodiscard]] std::string_view motion_end_name(MotionEnd end);
+
 /// How a motion of the arm ended.
 struct MotionOutcome {
-  Configuration q;         ///< where the arm is now, rad
+  Configuration q;  ///< where the arm is now, rad
+  MotionEnd end = MotionEnd::arrived;
+  std::string why;         ///< for people, when it did not arrive
   bool collision = false;  ///< with itself, the structure or what was mapped at the start (false
                            ///< where nobody can know)
   bool plant_contact = false;  ///< with a part of a plant that was not mapped
@@ -45,9 +61,10 @@ class Arm {
   /// path says so. This path, arcs included, is what was checked for collisions, so no other will
   /// do (PathMotion times it and gives trajectory points at any rate). Joints that turn without end
   /// run on from its first values beyond ±π: how far and which way they turn. Returns how long it
-  /// will take, s. The error says what the arm refused.
+  /// will take, s. The error ends the run; a motion that was refused may be an outcome instead.
   [[nodiscard]] virtual Expected<double> start(const JointPath& path) = 0;
-  /// Waits for the end of the motion started last.
+  /// Waits for the end of the motion started last; the arm stands still then. The error ends the
+  /// run: whoever moves the arm is gone, or where it is cannot be known.
   [[nodiscard]] virtual Expected<MotionOutcome> finish() = 0;
 };
 
