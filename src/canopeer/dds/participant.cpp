@@ -238,7 +238,10 @@ class FastWriter final : public Writer, fast::DataWriterListener {
   bool open(fast::Topic& topic, const Qos& qos, const std::string& user_data) {
     fast::DataWriterQos to = fast::DATAWRITER_QOS_DEFAULT;
     fill(to, qos, user_data);
-    to.publish_mode().kind = fast::ASYNCHRONOUS_PUBLISH_MODE;
+    // Sent by whoever writes, as ROS does. And kept: a volatile writer lets go of samples when a
+    // reader leaves, and may lock itself up with the thread that repeats them (seen in 2.9).
+    to.publish_mode().kind = fast::SYNCHRONOUS_PUBLISH_MODE;
+    to.durability().kind = fast::TRANSIENT_LOCAL_DURABILITY_QOS;
     to.reliability().max_blocking_time = {1, 0};
     to.endpoint().history_memory_policy = rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
     // What got lost is said again soon: big messages lose fragments in small socket buffers.
