@@ -28,11 +28,12 @@ class RosNode {
     options.announce = false;
     node_ = make_node(options);
     const std::string type = dds_type<ParticipantEntitiesInfo<N>>();
-    reader_ = must(node_->participant().reader("ros_discovery_info", type, {true, true, 100},
-                                               [this](Sample&& sample) {
-                                                 const std::lock_guard lock(mutex_);
-                                                 heard_.push_back(std::move(sample.payload));
-                                               }));
+    reader_ = must(node_->participant().reader(
+        "ros_discovery_info", type, {true, true, 100}, [this](Sample&& sample) {
+          if (participant_of(sample.identity.writer) == node_->participant().id()) return;
+          const std::lock_guard lock(mutex_);
+          heard_.push_back(std::move(sample.payload));
+        }));
     writer_ = must(node_->participant().writer("ros_discovery_info", type, kLatchedQos));
   }
   void announce() {
