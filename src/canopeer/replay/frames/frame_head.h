@@ -25,9 +25,9 @@ inline Frame frame_of(const Json& head, std::string octets = {}) {
 /// What people can see, not what the machine knows: it keeps replays small.
 [[nodiscard]] double rounded(double value, double step);
 
-[[nodiscard]] Json from(const Vec3& v);      ///< to 0.1 mm
-[[nodiscard]] Json from(const Pose& pose);   ///< twelve numbers, to 1e-6
-[[nodiscard]] Json from(const Box& box);     ///< min, max
-[[nodiscard]] Json from_time(double t_s);    ///< to 1 ms
+[[nodiscard]] Json from(const Vec3& v);     ///< to 0.1 mm
+[[nodiscard]] Json from(const Pose& pose);  ///< twelve numbers, to 1e-6
+[[nodiscard]] Json from(const Box& box);    ///< min, max
+[[nodiscard]] Json from_time(double t_s);   ///< to 1 ms
 
 }  // namespace canopeer::frames

@@ -111,7 +111,9 @@ Frame depth_picture(int view, const DepthImage& depth) {
   Mask grey(depth.width() / factor, depth.height() / factor);
   float nearest = std::numeric_limits<float>::infinity();
   float farthest = 0.0F;
-  const auto at = [&](int u, int v) { return depth.at(u * factor + factor / 2, v * factor + factor / 2); };
+  const auto at = [&](int u, int v) {
+    return depth.at(u * factor + factor / 2, v * factor + factor / 2);
+  };
   for (int v = 0; v < grey.height(); ++v) {
     for (int u = 0; u < grey.width(); ++u) {
       const float d = at(u, v);
