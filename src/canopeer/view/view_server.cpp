@@ -332,9 +332,9 @@ Expected<std::unique_ptr<ViewServer>> ViewServer::start(const ViewServerOptions&
                 (error == asio::error::address_in_use ? "; another --view-port?" : ""));
   }
   state->port = state->acceptor.local_endpoint().port();
-  state->shared = std::make_unique<Shared>(
-      Shared{options, std::move(log), std::move(controls),
-             ViewGuard(options.address, state->port, host_name(), options.token)});
+  state->shared.reset(
+      new Shared{options, std::move(log), std::move(controls),
+                 ViewGuard(options.address, state->port, host_name(), options.token)});
   State* const s = state.get();
   s->shared->log->on_append([s] { asio::post(s->context, [s] { s->pump_all(); }); });
   s->accept();
