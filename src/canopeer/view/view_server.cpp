@@ -68,6 +68,10 @@ class Reader : public std::enable_shared_from_this<Reader> {
     auto timeout = websocket::stream_base::timeout::suggested(beast::role_type::server);
     timeout.idle_timeout = 2 * kPatience;
     socket_.set_option(timeout);
+    websocket::permessage_deflate squeeze;
+    squeeze.server_enable = true;
+    squeeze.compLevel = 1;
+    socket_.set_option(squeeze);
     socket_.read_message_max(kMostWord);
     socket_.binary(true);
     socket_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
