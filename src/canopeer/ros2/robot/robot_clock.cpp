@@ -8,28 +8,31 @@ RobotClock::RobotClock(bool simulated, double rate, const RobotFaults& faults)
       faults_(faults),
       begin_(std::chrono::steady_clock::now()) {}
 
-Nanoseconds RobotClock::now() const {
-  if (!simulated_) return std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<Nanoseconds>((std::chrono::steady_clock::now() - begin_) *
-                                                 rate_);
+Stamp RobotClock::now() const {
+  if (!simulated_) {
+    const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
+    return std::chrono::nanoseconds(since_1970).count();
+  }
+  const std::chrono::duration<double> ran = std::chrono::steady_clock::now() - begin_;
+  return nanoseconds(ran.count() * rate_);
 }
 
-builtin_interfaces::Time RobotClock::stamp(Nanoseconds time) const {
+std::chrono::nanoseconds RobotClock::wall(Stamp time) const {
+  return std::chrono::nanoseconds(nanoseconds(seconds(time) / rate_));
+}
+
+builtin_interfaces::Time RobotClock::said(Stamp time) const {
   if (const auto offset = faults_.values(RobotFault::clock_offset)) {
-    time += std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>((*offset)[0]));
+    time += nanoseconds((*offset)[0]);
   }
-  {
-    const std::scoped_lock lock(mutex_);
-    if (!faults_.on(RobotFault::stale_stamps)) {
-      stale_.reset();
-    } else {
-      if (!stale_) stale_ = time;
-      time = *stale_;
-    }
+  const std::scoped_lock lock(mutex_);
+  if (!faults_.on(RobotFault::stale_stamps)) {
+    stale_.reset();
+  } else {
+    if (!stale_) stale_ = time;
+    time = *stale_;
   }
-  const auto seconds = std::chrono::floor<std::chrono::seconds>(time);
-  return {static_cast<std::int32_t>(seconds.count()),
-          static_cast<std::uint32_t>((time - seconds).count())};
+  return ros_time(time);
 }
 
 }  // namespace canopeer::ros

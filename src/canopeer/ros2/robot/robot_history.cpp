@@ -5,24 +5,23 @@
 namespace canopeer::ros {
 
 namespace {
-constexpr std::chrono::seconds kRemembered{5};
+constexpr Stamp kRemembered = 5 * kNanosecondsPerSecond;
 }
 
-void RobotHistory::add(Nanoseconds time, const RobotPlace& place) {
+void RobotHistory::add(Stamp time, const RobotPlace& place) {
   const std::scoped_lock lock(mutex_);
   entries_.push_back({time, place});
   while (entries_.front().time < time - kRemembered) entries_.pop_front();
 }
 
-std::optional<RobotPlace> RobotHistory::at(Nanoseconds time) const {
+std::optional<RobotPlace> RobotHistory::at(Stamp time) const {
   const std::scoped_lock lock(mutex_);
   const auto after = std::lower_bound(entries_.begin(), entries_.end(), time,
-                                      [](const Entry& e, Nanoseconds t) { return e.time < t; });
+                                      [](const Entry& e, Stamp t) { return e.time < t; });
   if (after == entries_.end() || after == entries_.begin()) return {};
   const Entry& a = *(after - 1);
   const Entry& b = *after;
-  const double s =
-      static_cast<double>((time - a.time).count()) / static_cast<double>((b.time - a.time).count());
+  const double s = static_cast<double>(time - a.time) / static_cast<double>(b.time - a.time);
   const auto between = [s](double x, double y) { return x + s * (y - x); };
   return RobotPlace{a.place.q + s * (b.place.q - a.place.q),
                     {between(a.place.trolley.travel_m, b.place.trolley.travel_m),

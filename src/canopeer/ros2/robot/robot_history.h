@@ -19,13 +19,13 @@ struct RobotPlace {
 class RobotHistory {
  public:
   /// Times rise.
-  void add(Nanoseconds time, const RobotPlace& place);
+  void add(Stamp time, const RobotPlace& place);
   /// Where it was at `time`; none: that is not known yet, or no more.
-  [[nodiscard]] std::optional<RobotPlace> at(Nanoseconds time) const;
+  [[nodiscard]] std::optional<RobotPlace> at(Stamp time) const;
 
  private:
   struct Entry {
-    Nanoseconds time;
+    Stamp time;
     RobotPlace place;
   };
   mutable std::mutex mutex_;
