@@ -13,7 +13,7 @@
 namespace canopeer::app {
 namespace {
 
-Ros2RobotOptions options_of(const Ros2RobotArguments& a) {
+Ros2RobotOptions robot_options(const Ros2RobotArguments& a) {
   Ros2RobotOptions options;
   options.faults = a.faults;
   options.camera_rate_hz = a.camera_rate_hz;
@@ -43,7 +43,7 @@ void ros2_robot(const Ros2RobotArguments& arguments) {
   const RobotModel robot = robot_of(file);
   ImportedScene world = build_world_or_stop(file.world, file.mission.seed);
   const auto running = value_or_stop(
-      Ros2Robot::start(file, robot, std::move(world.scene), options_of(arguments)), kBadInput);
+      Ros2Robot::start(file, robot, std::move(world.scene), robot_options(arguments)), kBadInput);
   std::printf("the robot of %s is on ROS 2, domain %d; Ctrl-C ends it\n", file.mission.name.c_str(),
               file.ros2.value_or(Ros2Settings()).domain.value_or(0));
   std::fflush(stdout);
