@@ -12,10 +12,10 @@ namespace {
 
 using Result = FollowJointTrajectory::Result;
 
-constexpr double kHeldUp_s = 0.3;  // who merely lags behind does not stand still for so long
+constexpr double kHeldUp_s = 0.5;  // who merely lags behind does not stand still for so long
 /// Controllers look at one instant, we a little later.
 constexpr double kBelief = 1.5;
-/// Where the tolerance is the controller's own affair.
+/// Where the tolerance is the controller's own affair; nearer is no place on the way any more.
 constexpr double kFarOff = 0.05;
 
 bool speaks_of(const std::string& text, std::initializer_list<std::string_view> words) {
@@ -94,7 +94,7 @@ MotionOutcome motion_ending(const MotionReport& report) {
     return outcome(MotionEnd::preempted,
                    "somebody else cancelled the motion" + (said.empty() ? "" : ": " + said));
   }
-  if (report.stood_still_s >= kHeldUp_s) {
+  if (report.stood_still_s >= kHeldUp_s && report.off_goal > kFarOff) {
     return outcome(MotionEnd::stopped, "the arm stood still for " +
                                            figure(report.stood_still_s, 1) + " s on its way (" +
                                            place_text(report) +
