@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "canopeer/ros2/arm/joint_listener.h"
-#include "canopeer/ros2/arm/motion_ending.h"
 #include "canopeer/ros2/time/figure.h"
 
 namespace canopeer::ros {

@@ -9,8 +9,8 @@
 #include "canopeer/config/ros2_settings.h"
 #include "canopeer/mission/ports.h"
 #include "canopeer/robot/robot_model.h"
+#include "canopeer/ros2/arm/motion_ending.h"
 #include "canopeer/ros2/arm/safety_mode.h"
-#include "canopeer/ros2/arm/trajectory_client.h"
 #include "canopeer/ros2/time/joint_history.h"
 #include "canopeer/ros2/time/ros_clock.h"
 
