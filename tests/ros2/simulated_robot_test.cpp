@@ -14,6 +14,7 @@
 #include "canopeer/cdr/messages/tf2_msgs.h"
 #include "canopeer/dds/action.h"
 #include "canopeer/dds/service.h"
+#include "canopeer/render/renderer.h"
 #include "canopeer/ros2/time/stamp.h"
 #include "dds/ros_fixture.h"
 #include "robot_in_process.h"
