@@ -142,6 +142,13 @@ class CdrReader {
       for (std::uint32_t i = 0; i < count; ++i) read(values.emplace_back());
     }
   }
+  void read(std::vector<bool>& values) {
+    std::uint32_t count = 0;
+    read(count);
+    need(count);
+    values.assign(count, false);
+    for (std::uint32_t i = 0; i < count; ++i) values[i] = bytes_[at_++] != 0;
+  }
   template <class T, std::size_t N>
   void read(std::array<T, N>& values) {
     for (T& value : values) read(value);
