@@ -14,8 +14,8 @@ namespace canopeer {
 /// registered.
 class Rectification {
  public:
-  /// Where a lens puts a point that a pinhole would put elsewhere, both at depth 1: (x/z, y/z). NaN:
-  /// the lens does not look there.
+  /// Where a lens puts a point that a pinhole would put elsewhere, both at depth 1: (x/z, y/z).
+  /// NaN: the lens does not look there.
   using Lens = std::function<Eigen::Vector2d(const Eigen::Vector2d& ideal)>;
 
   /// The intrinsics are the same before and after.

@@ -85,7 +85,8 @@ std::shared_ptr<const FrameMessages> CameraFeed::newest_with_pose(Stamp after,
     const auto known_until = poses_->known_until(frame_id(*messages));
     if (known_until && *known_until >= messages->stamp + offset_) {
       newest = messages;
-    } else if (const auto pose = poses_->at(messages->stamp + offset_, frame_id(*messages)); !pose) {
+    } else if (const auto pose = poses_->at(messages->stamp + offset_, frame_id(*messages));
+               !pose) {
       *why_none = pose.error().message;
     }
   }
@@ -169,7 +170,8 @@ Error CameraFeed::timeout_error(const std::string& why_none, Stamp from) const {
             " of each other: have the driver synchronise them, or raise max_difference_s"};
   }
   if (newest && *newest + offset_ < from) {
-    return {head + "the newest image is stamped " + text_of_seconds(seconds(from - *newest - offset_)) +
+    return {head + "the newest image is stamped " +
+            text_of_seconds(seconds(from - *newest - offset_)) +
             " before the arm had stood still for settle_s: does the arm move, or is the camera's "
             "clock behind (time_offset_s)?"};
   }

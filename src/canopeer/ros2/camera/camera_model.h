@@ -11,7 +11,7 @@ namespace canopeer::ros {
 
 /// What a camera info says of images of one size.
 struct CameraModel {
-  CameraIntrinsics intrinsics;                       ///< of the images without the lens
+  CameraIntrinsics intrinsics;                        ///< of the images without the lens
   std::shared_ptr<const Rectification> without_lens;  ///< null: there is no lens to take out
 };
 

@@ -77,8 +77,9 @@ Expected<DepthImage> depth_of(const sensor_msgs::CompressedImage& message) {
                 "'; use the topic that ends with /compressedDepth");
   }
   if (has(message.format, "rvl")) {
-    return fail("depth images are compressed by RVL; set the driver's parameter ...compressedDepth"
-                ".format to png");
+    return fail(
+        "depth images are compressed by RVL; set the driver's parameter ...compressedDepth"
+        ".format to png");
   }
   if (bytes.size() <= kDepthHead) return fail("compressedDepth: cut off");
   if (message.format.rfind("32FC1", 0) == 0) return inverse_depth(bytes);

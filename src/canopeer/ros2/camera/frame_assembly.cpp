@@ -136,8 +136,9 @@ Expected<RgbdFrame> FrameAssembler::from_cloud(const FrameMessages& messages) {
   auto images = images_of(*cloud);
   if (!images) return tl::unexpected(images.error());
   if (images->color.empty()) {
-    return fail("the cloud has no colours (field rgb), which detectors need: have the driver add "
-                "them, or give color, depth and info in place of points");
+    return fail(
+        "the cloud has no colours (field rgb), which detectors need: have the driver add "
+        "them, or give color, depth and info in place of points");
   }
   RgbdFrame frame;
   if (messages.info != nullptr) {
@@ -147,8 +148,9 @@ Expected<RgbdFrame> FrameAssembler::from_cloud(const FrameMessages& messages) {
   } else if (images->intrinsics) {
     frame.intrinsics = *images->intrinsics;
   } else {
-    return fail("the cloud has too few points to tell the camera's focal length, and no camera "
-                "info came");
+    return fail(
+        "the cloud has too few points to tell the camera's focal length, and no camera "
+        "info came");
   }
   frame.depth = std::move(images->depth);
   frame.color = std::move(images->color);
@@ -190,8 +192,8 @@ Expected<void> FrameAssembler::add_labels(const FrameMessages& messages, RgbdFra
 }
 
 Expected<RgbdFrame> FrameAssembler::assemble(const FrameMessages& messages) {
-  auto frame = messages.part(FramePart::points) != nullptr ? from_cloud(messages)
-                                                           : from_images(messages);
+  auto frame =
+      messages.part(FramePart::points) != nullptr ? from_cloud(messages) : from_images(messages);
   if (!frame) return frame;
   frame->intrinsics.min_range_m = options_.min_range_m;
   frame->intrinsics.max_range_m = options_.max_range_m;

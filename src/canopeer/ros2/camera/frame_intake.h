@@ -21,7 +21,7 @@ struct FrameIntakeOptions {
   std::vector<FramePart> parts;  ///< what a frame needs; depth or points comes first
   bool needs_info = true;        ///< frames without a camera info are not given out
   FrameSyncOptions sync;
-  std::size_t max_kept = 24;               ///< frames that nobody asked for yet; the oldest goes
+  std::size_t max_kept = 24;  ///< frames that nobody asked for yet; the oldest goes
   std::size_t max_kept_octets = 128u << 20;
 };
 
@@ -47,10 +47,10 @@ class FrameIntake {
     std::int64_t count = 0;
     std::int64_t without_stamp = 0;  ///< stamp 0: dropped
     std::optional<Steady::time_point> last;
-    std::optional<Stamp> newest;  ///< stamp
-    std::string frame_id;         ///< of the last one
-    std::string encoding;         ///< of the last one; of clouds empty
-    std::size_t octets = 0;       ///< of the last one
+    std::optional<Stamp> newest;        ///< stamp
+    std::string frame_id;               ///< of the last one
+    std::string encoding;               ///< of the last one; of clouds empty
+    std::size_t octets = 0;             ///< of the last one
     std::optional<double> least_age_s;  ///< see ClockDifference
   };
   [[nodiscard]] Heard heard(FramePart part) const;

@@ -33,8 +33,8 @@ using PartMessage =
 
 /// Messages that belong together, not looked into yet.
 struct FrameMessages {
-  Stamp stamp = 0;                                 ///< by the camera's clock
-  std::chrono::steady_clock::time_point arrived{};  ///< the last of them
+  Stamp stamp = 0;                                                    ///< by the camera's clock
+  std::chrono::steady_clock::time_point arrived{};                    ///< the last of them
   std::array<std::shared_ptr<const PartMessage>, kFrameParts> parts;  ///< null: not asked for
   std::shared_ptr<const sensor_msgs::CameraInfo> info;                ///< null: none came yet
 

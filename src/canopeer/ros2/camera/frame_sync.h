@@ -149,10 +149,9 @@ class FrameSync {
       while (stream.queue.size() > options_.max_items) drop_front(stream);
     }
     while (octets_ > options_.max_octets) {
-      const auto fullest =
-          std::max_element(streams_.begin(), streams_.end(), [](const Stream& a, const Stream& b) {
-            return a.queue.size() < b.queue.size();
-          });
+      const auto fullest = std::max_element(
+          streams_.begin(), streams_.end(),
+          [](const Stream& a, const Stream& b) { return a.queue.size() < b.queue.size(); });
       if (fullest->queue.empty()) break;
       drop_front(*fullest);
     }

@@ -1,10 +1,11 @@
 #include "canopeer/ros2/camera/jpeg.h"
 
+#include <jerror.h>
+#include <jpeglib.h>
+
 #include <csetjmp>
 #include <cstdio>  // jpeglib.h needs it and does not say so
 #include <cstring>
-#include <jerror.h>
-#include <jpeglib.h>
 #include <string>
 
 #include "canopeer/ros2/camera/raw_image.h"

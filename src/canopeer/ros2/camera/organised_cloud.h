@@ -17,9 +17,9 @@ struct CloudImages {
   std::optional<CameraIntrinsics> intrinsics;
 };
 
-/// Fields x, y, z (m; 32 or 64 bit reals) and rgb or rgba (32 bits) in any order. Any bytes may come.
-/// The error: the cloud is not organised, fields are missing, it is damaged, or its points are not
-/// those of a pinhole camera in its optical frame (z forward, y down).
+/// Fields x, y, z (m; 32 or 64 bit reals) and rgb or rgba (32 bits) in any order. Any bytes may
+/// come. The error: the cloud is not organised, fields are missing, it is damaged, or its points
+/// are not those of a pinhole camera in its optical frame (z forward, y down).
 [[nodiscard]] Expected<CloudImages> images_of(const sensor_msgs::PointCloud2& cloud);
 
 }  // namespace canopeer::ros

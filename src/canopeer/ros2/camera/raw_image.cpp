@@ -133,11 +133,11 @@ Expected<DepthImage> depth_of(const sensor_msgs::Image& message) {
 Expected<Image<PixelLabel>> labels_from(int width, int height, const std::uint8_t* values,
                                         std::size_t step) {
   std::uint8_t highest = 0;
-  auto labels =
-      each_pixel<PixelLabel>(Rows{width, height, values, step}, [&](const std::uint8_t* row, int u) {
-        highest = std::max(highest, row[u]);
-        return static_cast<PixelLabel>(row[u]);
-      });
+  auto labels = each_pixel<PixelLabel>(Rows{width, height, values, step},
+                                       [&](const std::uint8_t* row, int u) {
+                                         highest = std::max(highest, row[u]);
+                                         return static_cast<PixelLabel>(row[u]);
+                                       });
   if (highest > static_cast<std::uint8_t>(PixelLabel::ripe_fruit)) {
     return fail("a label image has the value " + std::to_string(highest) +
                 "; labels are 0 (background), 1 (green), 2 (turning) and 3 (ripe fruit)");
@@ -158,9 +158,8 @@ Expected<Image<float>> confidences_of(const sensor_msgs::Image& message) {
   if (grey8(message.encoding)) {
     const auto rows = rows_of(message, 1);
     if (!rows) return tl::unexpected(rows.error());
-    return each_pixel<float>(*rows, [](const std::uint8_t* row, int u) {
-      return static_cast<float>(row[u]) / 255.0F;
-    });
+    return each_pixel<float>(
+        *rows, [](const std::uint8_t* row, int u) { return static_cast<float>(row[u]) / 255.0F; });
   }
   if (message.encoding != "32FC1") {
     return fail("confidence images are '" + message.encoding +

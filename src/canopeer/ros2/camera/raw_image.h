@@ -31,7 +31,6 @@ inline constexpr std::size_t kMostImagePixels = 32u << 20;
 
 /// Values of PixelLabel from a plain grey image.
 [[nodiscard]] Expected<Image<PixelLabel>> labels_from(int width, int height,
-                                                      const std::uint8_t* values,
-                                                      std::size_t step);
+                                                      const std::uint8_t* values, std::size_t step);
 
 }  // namespace canopeer::ros

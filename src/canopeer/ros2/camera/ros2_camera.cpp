@@ -7,8 +7,7 @@ namespace canopeer::ros {
 namespace {
 
 bool ends_with(const std::string& text, std::string_view end) {
-  return text.size() >= end.size() &&
-         text.compare(text.size() - end.size(), end.size(), end) == 0;
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
 bool is_compressed(const std::string& topic) {
@@ -48,9 +47,7 @@ std::string odd_publishers(const Node& node, const std::string& topic, std::stri
                            bool reliable) {
   const auto publishers = node.publishers_of(topic);
   if (publishers.empty()) return "nobody publishes it";
-  const auto fits = [&](const Endpoint& endpoint) {
-    return endpoint.type == dds_type_name(type);
-  };
+  const auto fits = [&](const Endpoint& endpoint) { return endpoint.type == dds_type_name(type); };
   if (std::none_of(publishers.begin(), publishers.end(), fits)) {
     return "its type is " + publishers.front().type + ", expected " + std::string(type);
   }
@@ -104,10 +101,9 @@ Expected<std::unique_ptr<Ros2Camera>> Ros2Camera::make(Node& node,
                                                        const CameraSurroundings& around) {
   std::unique_ptr<Ros2Camera> camera(new Ros2Camera());
   std::unique_ptr<FramePoses> poses =
-      settings.pose == "tf"
-          ? poses_of_tf(around.robot, camera->tf_, settings.world_frame, settings.optical_frame,
-                        around.trolley)
-          : poses_of_joints(around.robot, around.joints, around.trolley);
+      settings.pose == "tf" ? poses_of_tf(around.robot, camera->tf_, settings.world_frame,
+                                          settings.optical_frame, around.trolley)
+                            : poses_of_joints(around.robot, around.joints, around.trolley);
   camera->now_ = around.now;
   camera->feed_ = std::make_unique<CameraFeed>(settings, feed_parts(node, settings, around),
                                                around.joints, std::move(poses));

@@ -17,7 +17,7 @@ struct CameraSurroundings {
   TrolleyAt trolley;
   std::function<Stamp()> now;                   ///< ROS time
   std::function<double(Stamp)> mission_time_s;  ///< of a stamp by the clock of joint states
-  double min_range_m = 0.15;  ///< nearer and farther surfaces give no return
+  double min_range_m = 0.15;                    ///< nearer and farther surfaces give no return
   double max_range_m = 3.0;
 };
 
@@ -25,9 +25,8 @@ struct CameraSurroundings {
 class Ros2Camera : public Camera {
  public:
   /// Subscribes; topics need not be there yet. The error names the setting that is wrong.
-  [[nodiscard]] static Expected<std::unique_ptr<Ros2Camera>> make(Node& node,
-                                                                  const Ros2CameraSettings& settings,
-                                                                  const CameraSurroundings& around);
+  [[nodiscard]] static Expected<std::unique_ptr<Ros2Camera>> make(
+      Node& node, const Ros2CameraSettings& settings, const CameraSurroundings& around);
   ~Ros2Camera() override;
 
   /// A frame from after the arm stood still. See CameraFeed::capture().
