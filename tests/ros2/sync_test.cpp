@@ -59,6 +59,7 @@ TEST(FrameSync, WhatIsFarOffIsNoPartner) {
   bench.add(0, 0);
   bench.add(1, 25);
   bench.add(0, 30);
+  bench.add(1, 58);
   EXPECT_EQ(bench.sets, (Sets{{30, 25}}));
   EXPECT_EQ(bench.sync.dropped(), 1);
 }

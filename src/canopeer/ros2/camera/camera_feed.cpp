@@ -11,6 +11,8 @@ using Steady = FrameIntake::Steady;
 
 /// Joints that move less stand still: what encoders and a light breeze of vibration make.
 constexpr double kStill = 2e-3;  // rad or m
+/// A topic that says nothing for less is slow.
+constexpr double kSilent_s = 1.0;
 /// How long one waits before looking at the joints again.
 constexpr auto kGlance = std::chrono::milliseconds(20);
 
@@ -150,10 +152,13 @@ std::string CameraFeed::silent_topics() const {
     if (heard.count > 0 && heard.without_stamp == heard.count) {
       return "images on " + parts_.topic(part) + " have no stamp: set the driver's clock";
     }
-    const double silence =
-        heard.last ? seconds_between(*heard.last, Steady::now()) : settings_.timeout_s;
-    if (silence < settings_.timeout_s) continue;
-    add(parts_.topic(part), heard.last ? " for " + text_of_seconds(silence) : "");
+    if (!heard.last) {
+      add(parts_.topic(part), "");
+      continue;
+    }
+    const double silence = seconds_between(*heard.last, Steady::now());
+    if (silence < std::max(settings_.timeout_s, kSilent_s)) continue;
+    add(parts_.topic(part), " for " + text_of_seconds(silence));
   }
   if (parts_.intake.needs_info && !intake_.info()) add(parts_.info_topic, "");
   return text;
@@ -161,8 +166,8 @@ std::string CameraFeed::silent_topics() const {
 
 Error CameraFeed::timeout_error(const std::string& why_none, Stamp from) const {
   const std::string head = "no frame within " + text_of_seconds(settings_.timeout_s) + ": ";
-  if (const std::string silent = silent_topics(); !silent.empty()) return {head + silent};
   if (!why_none.empty()) return {head + why_none};
+  if (const std::string silent = silent_topics(); !silent.empty()) return {head + silent};
   const auto newest = intake_.heard(parts_.intake.parts.front()).newest;
   if (intake_.after(0).empty() && newest) {
     return {head + "images came, but no depth and colour within " +

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -47,6 +48,9 @@ class FrameSync {
         std::upper_bound(to.queue.begin(), to.queue.end(), stamp,
                          [](Stamp at, const Waiting& waiting) { return at < waiting.stamp; });
     to.queue.insert(place, Waiting{stamp, std::move(item), octets});
+    if (to.newest && stamp > *to.newest) {
+      to.gaps = {to.gaps[1], stamp - *to.newest};
+    }
     to.newest = std::max(to.newest.value_or(stamp), stamp);
     octets_ += octets;
     std::vector<Set> sets = join();
@@ -74,9 +78,11 @@ class FrameSync {
     std::size_t octets = 0;
   };
   struct Stream {
-    std::deque<Waiting> queue;    // by stamp
-    std::optional<Stamp> newest;  // stamp that came
-    std::optional<Stamp> used;    // stamp of a set
+    std::deque<Waiting> queue;           // by stamp
+    std::optional<Stamp> newest;         // stamp that came
+    std::optional<Stamp> used;           // stamp of a set
+    std::array<std::int64_t, 2> gaps{};  // between the newest three; 0: not known
+    [[nodiscard]] std::int64_t pace() const { return std::min(gaps[0], gaps[1]); }
   };
   enum class Found { yes, no, not_yet };
 
@@ -84,9 +90,7 @@ class FrameSync {
   /// stream has passed `stamp`, or its next item, at the pace it comes, will be farther off.
   Found find(const Stream& stream, Stamp stamp, std::size_t* index) const {
     std::int64_t best = std::numeric_limits<std::int64_t>::max();
-    std::int64_t pace = std::numeric_limits<std::int64_t>::max();
     for (std::size_t i = 0; i < stream.queue.size(); ++i) {
-      if (i > 0) pace = std::min(pace, stream.queue[i].stamp - stream.queue[i - 1].stamp);
       const std::int64_t difference = std::abs(stream.queue[i].stamp - stamp);
       if (difference >= best) continue;
       best = difference;
@@ -94,7 +98,7 @@ class FrameSync {
     }
     const bool within = best <= options_.max_difference;
     const bool passed = stream.newest && *stream.newest >= stamp;
-    if (within && (passed || best == 0 || (stream.queue.size() > 1 && 2 * best < pace))) {
+    if (within && (passed || best == 0 || 2 * best < stream.pace())) {
       return Found::yes;
     }
     const bool over = stream.newest && *stream.newest > stamp + options_.max_difference;
