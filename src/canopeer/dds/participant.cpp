@@ -13,6 +13,7 @@
 #include <fastdds/LibrarySettings.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.hpp>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.hpp>
+#include <fastdds/rtps/common/WriteParams.hpp>
 #include <fastdds/utils/IPLocator.hpp>
 #else
 #include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
@@ -436,6 +437,9 @@ class FastParticipant final : public Participant, fast::DomainParticipantListene
   }
   [[nodiscard]] std::vector<Peer> peers() const override { return known_.peers(); }
   [[nodiscard]] std::vector<Endpoint> endpoints() const override { return known_.endpoints(); }
+  [[nodiscard]] std::optional<Endpoint> endpoint(const Guid& guid) const override {
+    return known_.endpoint(guid);
+  }
   [[nodiscard]] Rmw rmw_of(const ParticipantId& peer) const override { return known_.rmw_of(peer); }
   [[nodiscard]] std::int64_t dropped() const override { return too_long_count(); }
 

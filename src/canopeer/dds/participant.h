@@ -30,6 +30,7 @@ inline constexpr Qos kLatchedQos{true, true, 1};
 inline constexpr Qos kTfQos{true, false, 100};
 
 using ParticipantId = std::array<std::uint8_t, 12>;  ///< GUID prefix
+using VendorId = std::array<std::uint8_t, 2>;
 using Guid = std::array<std::uint8_t, 16>;           ///< prefix, then entity
 inline constexpr const char* kUserData = "source=canopeer;";  ///< some peers warn where none is
 [[nodiscard]] ParticipantId participant_of(const Guid& guid);
@@ -40,7 +41,7 @@ enum class Rmw { unknown, fastrtps, cyclonedds };
 /// Another participant in the domain.
 struct Peer {
   ParticipantId id{};
-  std::array<std::uint8_t, 2> vendor{};
+  VendorId vendor{};
   std::string name;
   std::string user_data;  ///< ROS puts "enclave=/;" there, Iron and later also "typehash"
   [[nodiscard]] Rmw rmw() const;
@@ -58,6 +59,7 @@ struct Endpoint {
   std::string user_data;
 };
 
+inline constexpr std::int64_t kUnknownSequence = -(std::int64_t{1} << 32);
 struct SampleIdentity {
   Guid writer{};
   std::int64_t sequence = 0;
@@ -120,6 +122,7 @@ class Participant {
       std::function<void(Sample&&)> on_sample, const std::string& user_data = kUserData) = 0;
   [[nodiscard]] virtual std::vector<Peer> peers() const = 0;
   [[nodiscard]] virtual std::vector<Endpoint> endpoints() const = 0;
+  [[nodiscard]] virtual std::optional<Endpoint> endpoint(const Guid& guid) const = 0;
   [[nodiscard]] virtual Rmw rmw_of(const ParticipantId& peer) const = 0;
   /// Samples that were too long, counted a moment later, for all participants of this process.
   [[nodiscard]] virtual std::int64_t dropped() const = 0;

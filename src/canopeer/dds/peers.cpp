@@ -46,8 +46,8 @@ ParticipantId participant_of(const Guid& guid) {
 }
 
 Rmw Peer::rmw() const {
-  if (vendor == std::array<std::uint8_t, 2>{0x01, 0x0F}) return Rmw::fastrtps;
-  if (vendor == std::array<std::uint8_t, 2>{0x01, 0x10}) return Rmw::cyclonedds;
+  if (vendor == VendorId{0x01, 0x0F}) return Rmw::fastrtps;
+  if (vendor == VendorId{0x01, 0x10}) return Rmw::cyclonedds;
   return Rmw::unknown;
 }
 
@@ -139,10 +139,21 @@ std::vector<Endpoint> KnownPeers::endpoints() const {
   return all;
 }
 
+std::optional<Endpoint> KnownPeers::endpoint(const Guid& guid) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = endpoints_.find(guid);
+  if (found == endpoints_.end()) return std::nullopt;
+  return found->second;
+}
+
 Rmw KnownPeers::rmw_of(const ParticipantId& peer) const {
   const std::lock_guard lock(mutex_);
   const auto found = peers_.find(peer);
-  return found == peers_.end() ? Rmw::unknown : found->second.rmw();
+  if (found != peers_.end()) return found->second.rmw();
+  // Said by an endpoint before its participant: an id begins with its vendor's.
+  Peer unknown;
+  unknown.vendor = {peer[0], peer[1]};
+  return unknown.rmw();
 }
 
 }  // namespace canopeer::ros

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ class KnownPeers {
   void remove_endpoint(const Guid& endpoint);
   [[nodiscard]] std::vector<Peer> peers() const;
   [[nodiscard]] std::vector<Endpoint> endpoints() const;
+  [[nodiscard]] std::optional<Endpoint> endpoint(const Guid& guid) const;
   [[nodiscard]] Rmw rmw_of(const ParticipantId& peer) const;
 
  private:
