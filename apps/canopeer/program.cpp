@@ -12,6 +12,7 @@
 #include "mission_arguments.h"
 #ifdef CANOPEER_ROS2
 #include "ros2_commands.h"
+#include "ros2_words.h"
 #endif
 #include "shipped_data.h"
 
@@ -317,7 +318,15 @@ int parse_and_run(int argc, char** argv, const RunRegistries& registries) {
   add_robot(app, robot_arguments);
 #ifdef CANOPEER_ROS2
   Ros2Arguments ros2_arguments;
+  const ros::RosArguments ros_arguments = take_ros_arguments(argc, argv);
+  ros2_arguments.robot.node = ros_arguments.node.value_or(ros2_arguments.robot.node);
+  ros2_arguments.robot.mission.ros2 = ros2_settings(ros_arguments, ros2_arguments.robot.node);
+  run_arguments.mission.ros2 = ros2_settings(ros_arguments, Ros2Settings().node);
   add_ros2(app, ros2_arguments, registries);
+  std::vector<std::string> words(ros_arguments.rest.rbegin(), ros_arguments.rest.rend() - 1);
+#else
+  std::vector<std::string> words(std::make_reverse_iterator(argv + argc),
+                                 std::make_reverse_iterator(argv + 1));
 #endif
   DoctorArguments doctor_arguments;
   doctor_arguments.registries = &registries;
@@ -334,7 +343,7 @@ int parse_and_run(int argc, char** argv, const RunRegistries& registries) {
     return kDone;
   }
   try {
-    app.parse(argc, argv);
+    app.parse(std::move(words));
   } catch (const CLI::ParseError& error) {
     std::fflush(stdout);
     return app.exit(error) == 0 ? kDone : kBadInput;

@@ -28,12 +28,14 @@ Overrides overrides_of(const RunArguments& arguments) {
 
 std::unique_ptr<Run> compose(const RunArguments& arguments) {
   ImportLine line(arguments.quiet);
-  StageRequest request = stage_request(arguments.mission, overrides_of(arguments));
+  const Overrides overrides = overrides_of(arguments);
+  StageRequest request = stage_request(arguments.mission, overrides);
   request.site = arguments.site;
   request.realtime = arguments.realtime;
   request.threads = arguments.threads;
   request.callbacks = callbacks_for_people(line, arguments.quiet);
-  return value_or_stop(Run::compose(request, *arguments.mission.registries, arguments.out),
+  return value_or_stop(Run::compose(load(arguments.mission, overrides), request,
+                                    *arguments.mission.registries, arguments.out),
                        kBadInput);
 }
 
