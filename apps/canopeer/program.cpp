@@ -343,6 +343,7 @@ int parse_and_run(int argc, char** argv, const RunRegistries& registries) {
     return kDone;
   }
   try {
+    app.name(argv[0]);
     app.parse(std::move(words));
   } catch (const CLI::ParseError& error) {
     std::fflush(stdout);
