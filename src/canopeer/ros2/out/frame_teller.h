@@ -23,7 +23,7 @@ class FrameTeller {
     const RobotModel& robot;
     /// Where the robot is now; nothing when nobody knows. Thread-safe.
     std::function<std::optional<RobotPlace>()> where;
-    std::string description;  ///< URDF; empty: none is told
+    std::string description{};  ///< URDF; empty: none is told
     std::chrono::milliseconds listen_first{2000};
   };
   /// All parts outlive it. The error: a topic cannot be had.

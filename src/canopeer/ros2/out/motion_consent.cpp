@@ -1,17 +1,19 @@
 #include "canopeer/ros2/out/motion_consent.h"
 
+#include <chrono>
+
 namespace canopeer::ros {
 
-bool MotionConsent::may(const std::string& what) {
+bool MotionConsent::may(const std::string& what, const std::function<bool()>& given_up) {
   if (!asking()) return true;
   if (say_) say_("may I " + what + "? Call ~/confirm or ~/refuse");
   std::unique_lock lock(mutex_);
   if (!asking_) return true;
   question_ = what;
   answer_.reset();
-  changed_.wait(lock, [&] { return answer_.has_value(); });
+  while (!answer_ && !given_up()) changed_.wait_for(lock, std::chrono::milliseconds(20));
   question_.reset();
-  return *answer_;
+  return answer_.value_or(false);
 }
 
 bool MotionConsent::answer(bool yes) {
@@ -41,7 +43,5 @@ bool MotionConsent::asking() const {
   const std::lock_guard lock(mutex_);
   return asking_;
 }
-
-void MotionConsent::close() { answer(false); }
 
 }  // namespace canopeer::ros

@@ -16,8 +16,8 @@ class MotionConsent {
       : asking_(ask), say_(std::move(say)) {}
 
   /// Whether that may be; waits for the answer. True at once when nobody is to be asked; false when
-  /// close() comes before the answer.
-  [[nodiscard]] bool may(const std::string& what);
+  /// `given_up` is before the answer comes.
+  [[nodiscard]] bool may(const std::string& what, const std::function<bool()>& given_up);
   /// The answer to what is asked now; false: nothing is.
   bool answer(bool yes);
   /// What is asked now.
@@ -26,8 +26,6 @@ class MotionConsent {
   /// Whether people are asked from now on. Switched off: what is asked now may be.
   void set_asking(bool ask);
   [[nodiscard]] bool asking() const;
-  /// Whoever waits is told no, now; the next question is asked again.
-  void close();
 
  private:
   mutable std::mutex mutex_;

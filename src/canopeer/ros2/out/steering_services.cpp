@@ -37,17 +37,19 @@ Expected<void> SteeringServices::open() {
          return say(Kind::stop,
                     "what moves is stopped; the arm goes home, the results are written");
        }},
-      {"~/save", [this] { return save(); }},
       {"~/confirm", [this] { return answer(true); }},
       {"~/refuse", [this] { return answer(false); }}};
-  for (const auto& [name, respond] : services) {
-    auto server = Server<Trigger>::make(
-        parts_.node, name,
-        [respond = respond](Trigger::Request&&, const auto& reply) { reply(respond()); });
+  const auto serve = [this](const char* name, Server<Trigger>::Handler handler) -> Expected<void> {
+    auto server = Server<Trigger>::make(parts_.node, name, std::move(handler));
     if (!server) return fail_in(name, server.error());
     servers_.push_back(std::move(*server));
+    return {};
+  };
+  for (const auto& [name, respond] : services) {
+    auto handler = [answer = respond](Trigger::Request&&, const auto& reply) { reply(answer()); };
+    if (auto ok = serve(name, handler); !ok) return ok;
   }
-  return {};
+  return serve("~/save", [this](Trigger::Request&&, const auto& reply) { save(reply); });
 }
 
 SteeringWord SteeringServices::ask(const SteeringPoint& point) {
@@ -60,10 +62,7 @@ std_srvs::Trigger::Response SteeringServices::say(Kind kind, const std::string& 
   if (stop_asked_) return {false, "the run has been told to stop already"};
   desk_.say({kind, kBy, ""});
   if (kind == Kind::pause) holding_ = true;
-  if (kind == Kind::stop) {
-    stop_asked_ = true;
-    parts_.consent.close();
-  }
+  if (kind == Kind::stop) stop_asked_ = true;
   return {true, what_happens};
 }
 
@@ -80,10 +79,15 @@ std_srvs::Trigger::Response SteeringServices::answer(bool yes) {
   return {true, (yes ? "allowed: " : "refused: ") + *question};
 }
 
-std_srvs::Trigger::Response SteeringServices::save() const {
-  const auto saved = parts_.save();
-  if (!saved) return {false, saved.error().message};
-  return {true, *saved};
+/// Writing a map takes longer than joint states may wait behind it.
+void SteeringServices::save(const Server<Trigger>::Reply& reply) {
+  if (saving_.exchange(true)) return reply({false, "results are being written already"});
+  saver_ = std::jthread([this, reply] {
+    const auto saved = parts_.save();
+    saving_ = false;
+    reply(saved ? Trigger::Response{true, *saved}
+                : Trigger::Response{false, saved.error().message});
+  });
 }
 
 }  // namespace canopeer::ros

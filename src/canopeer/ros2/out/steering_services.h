@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "canopeer/cdr/messages/std_srvs.h"
@@ -20,7 +21,7 @@ class SteeringServices : public Steering {
   struct Parts {
     Node& node;
     MotionConsent& consent;
-    /// Writes results so far; says where. In a thread of the DDS library, which waits.
+    /// Writes results so far; says where. In a thread of its own.
     std::function<Expected<std::string>()> save;
     bool wait_for_start = false;
   };
@@ -38,13 +39,15 @@ class SteeringServices : public Steering {
   [[nodiscard]] Trigger::Response say(SteeringWord::Kind kind, const std::string& what_happens);
   [[nodiscard]] Trigger::Response go_on();
   [[nodiscard]] Trigger::Response answer(bool yes);
-  [[nodiscard]] Trigger::Response save() const;
+  void save(const Server<Trigger>::Reply& reply);
 
   Parts parts_;
   SteeringDesk desk_;
   std::atomic<bool> holding_{false};
   std::atomic<bool> stop_asked_{false};
-  std::vector<Server<Trigger>> servers_;  // last: their handlers use all above
+  std::atomic<bool> saving_{false};
+  std::vector<Server<Trigger>> servers_;  // their handlers use all above
+  std::jthread saver_;                    // first to go: it answers
 };
 
 }  // namespace canopeer::ros
