@@ -13,7 +13,7 @@ namespace {
 using std_srvs::Trigger;
 
 constexpr const char* kService = "~/trolley_arrived";
-constexpr double kLook_s = 0.02;
+constexpr double kPersonLook_s = 0.02;
 
 class ManualDriver : public TrolleyDriver {
  public:
@@ -50,7 +50,7 @@ class ManualDriver : public TrolleyDriver {
         waiting_for_.reset();
         return {};
       }
-      parts_.clock.sleep(kLook_s);
+      parts_.clock.sleep(kPersonLook_s);
     }
     return {};
   }

@@ -9,10 +9,10 @@
 namespace canopeer::ros {
 namespace {
 
-constexpr double kSilence_s = 2.0;  // such topics may be slow
-constexpr double kStands_s = 0.3;   // at the goal, to have arrived
-constexpr double kAgain_s = 1.0;    // the command is said again
-constexpr double kLook_s = 0.02;
+constexpr double kTopicsSilence_s = 2.0;  // such topics may be slow
+constexpr double kStands_s = 0.3;         // at the goal, to have arrived
+constexpr double kAgain_s = 1.0;          // the command is said again
+constexpr double kTopicsLook_s = 0.02;
 
 class TopicsDriver : public TrolleyDriver {
  public:
@@ -62,7 +62,7 @@ class TopicsDriver : public TrolleyDriver {
         command(goal);
         said_s = now_s;
       }
-      parts_.clock.sleep(kLook_s);
+      parts_.clock.sleep(kTopicsLook_s);
     }
   }
 
@@ -73,10 +73,10 @@ class TopicsDriver : public TrolleyDriver {
   }
   Expected<void> alive() const {
     if (auto ok = parts_.clock.check(); !ok) return ok;
-    const auto silent = parts_.sense.silent(kSilence_s);
+    const auto silent = parts_.sense.silent(kTopicsSilence_s);
     if (silent.empty()) return {};
     return fail("lost it: nothing was heard of " + silent.front() + " for " +
-                figure(kSilence_s, 1) + " s");
+                figure(kTopicsSilence_s, 1) + " s");
   }
 
   TrolleyParts parts_;
