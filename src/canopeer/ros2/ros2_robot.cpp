@@ -6,6 +6,7 @@
 #include "canopeer/cdr/messages/std_srvs.h"
 #include "canopeer/config/yaml_reader.h"
 #include "canopeer/dds/service.h"
+#include "canopeer/ros2/node_of_settings.h"
 #include "canopeer/ros2/robot/robot_camera.h"
 #include "canopeer/ros2/robot/robot_control.h"
 
@@ -80,10 +81,11 @@ Expected<void> Ros2Robot::State::start(const MissionFile& file, const Ros2RobotO
   for (const std::string& fault : options.faults) {
     if (auto ok = faults.set(fault); !ok) return ok;
   }
-  auto made = ros::Node::make(options.node);
+  Ros2Settings names = file.ros2.value_or(Ros2Settings());
+  names.node = options.node;
+  auto made = ros::Node::make(node_of(names));
   if (!made) return tl::unexpected(made.error());
   node = std::move(*made);
-  const Ros2Settings names = file.ros2.value_or(Ros2Settings());
   auto urdf = urdf_text(file.robot);
   if (!urdf) return tl::unexpected(urdf.error());
   auto said = node->advertise<ros::std_msgs::String>("/robot_description", ros::kLatchedQos);

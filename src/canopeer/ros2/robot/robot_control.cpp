@@ -70,6 +70,12 @@ Expected<void> RobotControl::join(const Ros2Settings& names, bool split) {
       parts_.node.advertise<std_msgs::Float64>("/speed_scaling_state_broadcaster/speed_scaling");
   if (!scaling) return tl::unexpected(scaling.error());
   speed_scaling_ = std::move(*scaling);
+  if (!names.arm.safety_mode.empty()) {
+    auto mode =
+        parts_.node.advertise<ur_dashboard_msgs::SafetyMode>(names.arm.safety_mode, kLatchedQos);
+    if (!mode) return tl::unexpected(mode.error());
+    safety_mode_ = std::move(*mode);
+  }
   if (auto ok = arm_.serve(parts_.node, names.arm.action); !ok) return ok;
   if (trolley_ == nullptr) return {};
   const std::string& action = names.trolley.action;
@@ -96,6 +102,14 @@ void RobotControl::work(double rate_hz, const std::stop_token& stop) {
   }
 }
 
+void RobotControl::say_safety_mode() {
+  using ur_dashboard_msgs::SafetyMode;
+  const std::uint8_t mode = arm_.stopped() ? SafetyMode::PROTECTIVE_STOP : SafetyMode::NORMAL;
+  if (mode == said_mode_) return;
+  safety_mode_.publish({mode});
+  said_mode_ = mode;
+}
+
 void RobotControl::tick(Stamp now, double dt_s, std::int64_t number) {
   const builtin_interfaces::Time stamp = parts_.clock.said(now);
   const bool with_feedback = number % kFeedbackEvery == 0;
@@ -109,6 +123,7 @@ void RobotControl::tick(Stamp now, double dt_s, std::int64_t number) {
   const RobotPlace place{arm.position, axes_.state(trolley.position)};
   parts_.history.add(now, place);
   parts_.watch.see(place, !arm_.moving());
+  say_safety_mode();
   voice_->say(now, arm, trolley, number % kFramesEvery == 0);
   if (trolley_topics_ != nullptr && with_feedback) trolley_topics_->say();
   if (number % kScalingEvery == 0) speed_scaling_.publish({100.0 * arm_.speed_scale()});
