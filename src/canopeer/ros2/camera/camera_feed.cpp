@@ -101,7 +101,11 @@ Expected<TimedFrame> CameraFeed::capture() {
   Stamp from = 0, tried = 0;
   while (Steady::now() < deadline) {
     const auto counts = counts_from();
-    if (!counts) return fail("no camera pose: not all of the arm's joints are in the joint states");
+    if (!counts) {
+      why_none = "not all of the arm's joints are in the joint states";
+      std::this_thread::sleep_for(kGlance);
+      continue;
+    }
     from = *counts;
     const Stamp first = std::max(from - offset_, tried + 1);
     if (!intake_.wait_for(first, std::min(deadline, Steady::now() + kGlance))) continue;

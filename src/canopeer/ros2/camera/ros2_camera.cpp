@@ -49,7 +49,8 @@ std::string odd_publishers(const Node& node, const std::string& topic, std::stri
   if (publishers.empty()) return "nobody publishes it";
   const auto fits = [&](const Endpoint& endpoint) { return endpoint.type == dds_type_name(type); };
   if (std::none_of(publishers.begin(), publishers.end(), fits)) {
-    return "its type is " + publishers.front().type + ", expected " + std::string(type);
+    return "its type is " + ros_type_name(publishers.front().type) + ", expected " +
+           std::string(type);
   }
   const auto reaches = [&](const Endpoint& endpoint) {
     return fits(endpoint) && (endpoint.qos.reliable || !reliable);
