@@ -11,6 +11,7 @@
 #include "manual.h"
 #include "mission_arguments.h"
 #ifdef CANOPEER_ROS2
+#include "canopeer/ros2/ros2_site.h"
 #include "ros2_commands.h"
 #include "ros2_words.h"
 #endif
@@ -357,8 +358,12 @@ int parse_and_run(int argc, char** argv, const RunRegistries& registries) {
 
 namespace canopeer {
 
-int run_program(int argc, char** argv, const RunRegistries& registries) {
+int run_program(int argc, char** argv, const RunRegistries& with) {
   app::open_standard_streams();
+  RunRegistries registries = with;
+#ifdef CANOPEER_ROS2
+  add_ros2_site(registries.sites);
+#endif
   try {
     const int status = app::parse_and_run(argc, argv, registries);
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;

@@ -34,6 +34,10 @@ std::unique_ptr<Run> compose(const RunArguments& arguments) {
   request.realtime = arguments.realtime;
   request.threads = arguments.threads;
   request.callbacks = callbacks_for_people(line, arguments.quiet);
+  request.callbacks.on_message = [](const std::string& text) {
+    std::fprintf(stderr, "canopeer: %s\n", text.c_str());
+  };
+  request.callbacks.stop_asked = [&stop = catch_stop_signals()] { return stop.load(); };
   return value_or_stop(Run::compose(load(arguments.mission, overrides), request,
                                     *arguments.mission.registries, arguments.out),
                        kBadInput);
