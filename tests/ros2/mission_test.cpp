@@ -68,7 +68,7 @@ bool eventually(const std::function<bool()>& holds) {
 
 /// The mission has recorded that the arm moved.
 bool has_moved(const std::filesystem::path& out) {
-  return read_file(out / "record.jsonl").value_or("").find("\"motion\"") != std::string::npos;
+  return read_file(out / "record").value_or("").find("\"motion\"") != std::string::npos;
 }
 
 TEST(MissionOverRos2, FindsFruitsAndTouchesNothing) {
