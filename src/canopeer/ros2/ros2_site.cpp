@@ -9,6 +9,7 @@
 #include "canopeer/ros2/node_of_settings.h"
 #include "canopeer/ros2/out/ros2_output.h"
 #include "canopeer/ros2/presence/presence.h"
+#include "canopeer/ros2/time/figure.h"
 #include "canopeer/ros2/trolley/ros2_trolley.h"
 
 namespace canopeer {
