@@ -29,6 +29,8 @@ struct RunArguments {
   std::string site = "simulation";
   int threads = 0;  ///< 0: all cores
   bool realtime = false;
+  bool dry_run = false;  ///< of a robot
+  bool confirm = false;  ///< of a robot
   std::string out;
   bool quiet = false;
   bool profile = false;

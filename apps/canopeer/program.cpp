@@ -41,6 +41,10 @@ void add_run(CLI::App& app, RunArguments& arguments, const RunRegistries& regist
                       "What computing costs: default, reference, free, this-machine, or a file");
   command->add_flag("--realtime", arguments.realtime,
                     "On the wall clock, with worker threads, in place of simulated time");
+  command->add_flag("--dry-run", arguments.dry_run,
+                    "Site ros2: plan and tell, and never move (ros2.dry_run)");
+  command->add_flag("--confirm", arguments.confirm,
+                    "Site ros2: ask before every motion (ros2.confirm)");
   command->add_option("--out", arguments.out, "Directory for the results");
   command->add_flag("--quiet", arguments.quiet, "Print errors only");
   command->add_flag("--profile", arguments.profile, "Print where the wall time went");

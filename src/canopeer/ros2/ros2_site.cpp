@@ -9,6 +9,7 @@
 #include "canopeer/ros2/node_of_settings.h"
 #include "canopeer/ros2/out/ros2_output.h"
 #include "canopeer/ros2/presence/presence.h"
+#include "canopeer/ros2/time/figure.h"
 #include "canopeer/ros2/trolley/ros2_trolley.h"
 
 namespace canopeer {
@@ -234,12 +235,13 @@ Expected<std::unique_ptr<Site>> make_ros2_site(const SiteRequest& request) {
 }
 
 void add_ros2_site(SiteRegistry& sites) {
+  if (!sites.one_line("ros2").empty()) return;
   SiteManners manners;
   manners.realtime = true;
   manners.arm_speed = [](const MissionFile& file) { return ros::settings_of(file).arm.speed_scale; };
   const auto added = sites.add_with_manners("ros2", "a robot on ROS 2, as the mission's ros2 says",
                                             make_ros2_site, std::move(manners));
-  CANOPEER_CHECK(added.has_value(), "nobody else's site is called ros2");
+  CANOPEER_CHECK(added.has_value(), "its name is good and free");
 }
 
 }  // namespace canopeer
