@@ -9,7 +9,7 @@
 #include "canopeer/cdr/messages/std_msgs.h"
 #include "canopeer/cdr/messages/trajectory_msgs.h"
 
-// Humble and Jazzy have the same layout; later ones add members at the end of the feedback.
+// Humble and Jazzy have the same layout.
 
 namespace canopeer::ros::control_msgs {
 
@@ -69,6 +69,8 @@ struct FollowJointTrajectory {
       archive(error_code, error_string);
     }
   };
+  /// Written as Humble and Jazzy have it. Read up to `error`: control_msgs 6.3 (June 2025) put an
+  /// index behind it, under the same name.
   struct Feedback {
     std_msgs::Header header;
     std::vector<std::string> joint_names;
@@ -81,8 +83,10 @@ struct FollowJointTrajectory {
     trajectory_msgs::MultiDOFJointTrajectoryPoint multi_dof_error;
     template <class Archive>
     void visit(Archive& archive) {
-      archive(header, joint_names, desired, actual, error, multi_dof_joint_names, multi_dof_desired,
-              multi_dof_actual, multi_dof_error);
+      archive(header, joint_names, desired, actual, error);
+      if constexpr (!Archive::kReads) {
+        archive(multi_dof_joint_names, multi_dof_desired, multi_dof_actual, multi_dof_error);
+      }
     }
   };
 };
