@@ -57,6 +57,9 @@ constexpr HeaderOrigin kOrigins[] = {
     {"stb/", "libstb-dev"},
     {"webp/", "libwebp-dev"},
     {"tl/", "libexpected-dev"},
+    {"fastdds/", "libfastdds-dev"},
+    {"fastrtps/", "libfastrtps-dev"},
+    {"dds/", "cyclonedds-dev"},
     {"gtest/", "libgtest-dev"},
     {"benchmark/", "libbenchmark-dev"},
     {"sys/", ""},
@@ -66,6 +69,10 @@ constexpr HeaderOrigin kOrigins[] = {
     {"arm_neon.h", ""},
     {"fcntl.h", ""},
     {"poll.h", ""},
+    {"sched.h", ""},
+    {"ifaddrs.h", ""},
+    {"arpa/", ""},
+    {"net/", ""},
     {"dlfcn.h", ""},
 };
 
