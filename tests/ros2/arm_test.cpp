@@ -11,10 +11,10 @@
 namespace canopeer::ros {
 namespace {
 
+using test::test_robot;
 using testing_support::ControllerFaults;
 using testing_support::eventually;
 using testing_support::TestController;
-using test::test_robot;
 
 constexpr const char* kAction = "/arm/follow_joint_trajectory";
 
@@ -220,8 +220,8 @@ TEST_F(Ros2ArmTest, AnArmThatIsHeldIsStopped) {
 TEST_F(Ros2ArmTest, ASafetyModeStopsTheMotionAndTheNext) {
   Ros2Settings settings = quick_settings();
   settings.arm.safety_mode = "/io_and_status_controller/safety_mode";
-  auto safety = must(robot_node_->advertise<ur_dashboard_msgs::SafetyMode>(
-      settings.arm.safety_mode, kLatchedQos));
+  auto safety = must(
+      robot_node_->advertise<ur_dashboard_msgs::SafetyMode>(settings.arm.safety_mode, kLatchedQos));
   start(settings);
   safety.publish({ur_dashboard_msgs::SafetyMode::NORMAL});
   controller_->faults([](ControllerFaults& f) { f.speed = 0.1; });
