@@ -48,9 +48,11 @@ class Controller {
     const std::lock_guard lock(mutex_);
     return started_.size();
   }
-  [[nodiscard]] UUID last() const {
+  /// The goal started as the `n`th; it comes a moment after it was accepted.
+  [[nodiscard]] UUID goal(std::size_t n = 1) const {
+    if (!eventually([&] { return started() >= n; })) return {};
     const std::lock_guard lock(mutex_);
-    return started_.back();
+    return started_[n - 1];
   }
   void refuse_to_cancel() { cancellable_ = false; }
   ActionServer<Follow>& server() { return *server_; }
@@ -119,14 +121,13 @@ class Action : public testing::Test {
 
 TEST_F(Action, AGoalIsAcceptedFollowedAndEnds) {
   ASSERT_TRUE(must(client_->send(goal_for("elbow"), heard_.events(), 10s)));
-  ASSERT_TRUE(eventually([&] { return controller_.started() == 1; }));
   ASSERT_TRUE(eventually([&] { return heard_.was(GoalState::executing); }));
   Follow::Feedback feedback;
   feedback.joint_names = {"elbow"};
-  controller_.server().feedback(controller_.last(), feedback);
+  controller_.server().feedback(controller_.goal(), feedback);
   controller_.server().feedback(new_goal_id(), feedback);  // somebody else's
   ASSERT_TRUE(eventually([&] { return !heard_.feedback().empty(); }));
-  controller_.server().finish(controller_.last(), GoalState::succeeded, {0, "there"});
+  controller_.server().finish(controller_.goal(), GoalState::succeeded, {0, "there"});
   ASSERT_TRUE(eventually([&] { return heard_.ended() && heard_.was(GoalState::succeeded); }));
   EXPECT_EQ(*heard_.ended(), GoalState::succeeded);
   EXPECT_EQ(heard_.text(), "there");
@@ -142,7 +143,7 @@ TEST_F(Action, AGoalIsCancelledByItsSender) {
   ASSERT_TRUE(must(client_->send(goal_for("elbow"), heard_.events(), 10s)));
   EXPECT_TRUE(must(client_->cancel(10s)));
   ASSERT_TRUE(eventually([&] { return heard_.was(GoalState::canceling); }));
-  controller_.server().finish(controller_.last(), GoalState::canceled, {});
+  controller_.server().finish(controller_.goal(), GoalState::canceled, {});
   ASSERT_TRUE(eventually([&] { return heard_.ended().has_value(); }));
   EXPECT_EQ(*heard_.ended(), GoalState::canceled);
   EXPECT_FALSE(must(client_->cancel(10s))) << "it has ended";
@@ -164,17 +165,17 @@ TEST_F(Action, OthersMayCancelAllGoals) {
   const auto all = must(other.call({}, 10s));
   EXPECT_EQ(all.return_code, CancelGoal::Response::ERROR_NONE);
   ASSERT_EQ(all.goals_canceling.size(), 1U);
-  EXPECT_EQ(all.goals_canceling[0].goal_id, controller_.last());
+  EXPECT_EQ(all.goals_canceling[0].goal_id, controller_.goal());
 }
 
 TEST_F(Action, AResultCanBeAskedForAfterTheEnd) {
   ASSERT_TRUE(must(client_->send(goal_for("elbow"), {}, 10s)));
-  controller_.server().finish(controller_.last(), GoalState::aborted, {-4, "path"});
+  controller_.server().finish(controller_.goal(), GoalState::aborted, {-4, "path"});
   auto results = must(Client<GetResult<Follow>>::make(
       *here_, std::string(kAction) + "/_action/get_result"));
   ASSERT_TRUE(eventually([&] { return results.ready(); }));
   for (int i = 0; i < 2; ++i) {
-    const auto late = must(results.call({controller_.last()}, 10s));
+    const auto late = must(results.call({controller_.goal()}, 10s));
     EXPECT_EQ(late.status, action_msgs::GoalStatus::STATUS_ABORTED);
     EXPECT_EQ(late.result.error_string, "path");
   }
@@ -184,11 +185,11 @@ TEST_F(Action, AResultCanBeAskedForAfterTheEnd) {
 
 TEST_F(Action, ANewGoalForgetsTheOneBefore) {
   ASSERT_TRUE(must(client_->send(goal_for("elbow"), heard_.events(), 10s)));
-  const UUID first = controller_.last();
+  const UUID first = controller_.goal();
   Heard second;
   ASSERT_TRUE(must(client_->send(goal_for("elbow"), second.events(), 10s)));
   controller_.server().finish(first, GoalState::aborted, {});
-  controller_.server().finish(controller_.last(), GoalState::succeeded, {});
+  controller_.server().finish(controller_.goal(2), GoalState::succeeded, {});
   ASSERT_TRUE(eventually([&] { return second.ended().has_value(); }));
   EXPECT_EQ(*second.ended(), GoalState::succeeded);
   EXPECT_FALSE(heard_.ended().has_value());

@@ -2,17 +2,17 @@
 
 #include <map>
 
-#include "canopeer/ros2/out/robot_frames.h"
+#include "canopeer/ros2/out/link_transforms.h"
 #include "support/planning_fixture.h"
 
 namespace canopeer::ros {
 namespace {
 
-TEST(RobotFrames, ChainUpToTheCamera) {
+TEST(LinkTransforms, ChainUpToTheCamera) {
   const RobotModel& robot = test::test_robot();
   const Configuration q = robot.home("side_2");
   const TrolleyState trolley{1.2, 0.3};
-  const auto frames = robot_frames(robot, q, trolley, "map", 5);
+  const auto frames = link_transforms(robot, q, trolley, "map", 5);
   EXPECT_EQ(frames.size(), robot.links().size());
   std::map<std::string, geometry_msgs::TransformStamped> by_child;
   for (const auto& frame : frames) by_child[frame.child_frame_id] = frame;

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "canopeer/cdr/messages/sensor_msgs.h"
 #include "canopeer/dds/action.h"
 #include "canopeer/ros2/arm/trajectory_goal.h"
 

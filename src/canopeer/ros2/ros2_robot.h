@@ -7,16 +7,15 @@
 
 #include "canopeer/base/expected.h"
 #include "canopeer/config/mission_file.h"
-#include "canopeer/dds/node.h"
 #include "canopeer/robot/robot_model.h"
 #include "canopeer/scene/scene.h"
 
 namespace canopeer {
 
-/// How the simulated robot behaves. Topics and names are those that the mission's site listens to
+/// How the simulated robot behaves. Topics, names and network are those of the mission's site
 /// (Ros2Settings).
 struct Ros2RobotOptions {
-  ros::NodeOptions node{.name = "simulated_robot"};
+  std::string node = "simulated_robot";
   double joint_rate_hz = 125.0;     ///< of control and joint states
   bool split_joint_states = false;  ///< arm and trolley are said by two publishers
   double camera_rate_hz = 6.0;

@@ -4,6 +4,7 @@
 #include <thread>
 #include <vector>
 
+#include "canopeer/cdr/messages/ur_dashboard_msgs.h"
 #include "canopeer/config/ros2_settings.h"
 #include "canopeer/ros2/robot/joint_voice.h"
 #include "canopeer/ros2/robot/motion_watch.h"
@@ -25,16 +26,17 @@ class RobotControl {
   };
   [[nodiscard]] static Expected<std::unique_ptr<RobotControl>> start(const Parts& parts,
                                                                      const Ros2Settings& names,
-                                                                     const RobotPlace& place,
+                                                                     const SimulatedPlace& place,
                                                                      double rate_hz, bool split);
   ~RobotControl();
   [[nodiscard]] TrajectoryServer::Counts arm_counts() const { return arm_.counts(); }
   void release() { arm_.release(); }
 
  private:
-  RobotControl(const Parts& parts, const Ros2Settings& names, const RobotPlace& place);
+  RobotControl(const Parts& parts, const Ros2Settings& names, const SimulatedPlace& place);
   [[nodiscard]] Expected<void> join(const Ros2Settings& names, bool split);
   void work(double rate_hz, const std::stop_token& stop);
+  void say_safety_mode();
   void tick(Stamp now, double dt_s, std::int64_t number);
 
   Parts parts_;
@@ -44,6 +46,8 @@ class RobotControl {
   std::unique_ptr<TrajectoryServer> trolley_;
   std::unique_ptr<TrolleyTopics> trolley_topics_;
   Publisher<std_msgs::Float64> speed_scaling_;
+  Publisher<ur_dashboard_msgs::SafetyMode> safety_mode_;
+  std::uint8_t said_mode_ = 0;
   std::jthread worker_;
 };
 

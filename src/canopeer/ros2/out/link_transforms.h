@@ -10,7 +10,7 @@
 namespace canopeer::ros {
 
 /// Each link of the robot in the one that carries it, and its root in `world_frame`.
-[[nodiscard]] std::vector<geometry_msgs::TransformStamped> robot_frames(
+[[nodiscard]] std::vector<geometry_msgs::TransformStamped> link_transforms(
     const RobotModel& robot, const Configuration& q, const TrolleyState& trolley,
     const std::string& world_frame, Stamp stamp);
 

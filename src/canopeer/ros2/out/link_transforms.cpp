@@ -1,14 +1,14 @@
-#include "canopeer/ros2/out/robot_frames.h"
+#include "canopeer/ros2/out/link_transforms.h"
 
 #include "canopeer/ros2/out/message_parts.h"
 
 namespace canopeer::ros {
 
-std::vector<geometry_msgs::TransformStamped> robot_frames(const RobotModel& robot,
-                                                          const Configuration& q,
-                                                          const TrolleyState& trolley,
-                                                          const std::string& world_frame,
-                                                          Stamp stamp) {
+std::vector<geometry_msgs::TransformStamped> link_transforms(const RobotModel& robot,
+                                                             const Configuration& q,
+                                                             const TrolleyState& trolley,
+                                                             const std::string& world_frame,
+                                                             Stamp stamp) {
   std::vector<Pose> T_world_link;
   robot.link_poses(q, trolley, T_world_link);
 
