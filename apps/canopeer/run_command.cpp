@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "exit_status.h"
 #include "import_line.h"
+#include "live_view.h"
 #include "mission_arguments.h"
 #include "mission_progress.h"
 #include "stop_signal.h"
@@ -107,7 +108,10 @@ void print_lost_watchers(const Mission& mission) {
 void run(const RunArguments& arguments) {
   SignalSteering signals;
   const std::unique_ptr<Run> run = compose(arguments);
-  run->steer(signals);
+  SteeringTogether steering;
+  steering.add(signals);
+  const LiveView view(*run, steering, arguments.view);
+  run->steer(steering);
   run->watch(std::make_shared<MissionProgress>(arguments.quiet), {.name = "the progress bar"});
   value_or_stop(run->begin(), kFailed);
   while (run->step()) {
@@ -117,6 +121,7 @@ void run(const RunArguments& arguments) {
   if (summary && !arguments.quiet) print_summary(*summary, run->out());
   if (summary && arguments.profile) print_profile(run->mission().timer(), summary->wall_time_s);
   std::fflush(stdout);
+  view.stay(arguments.quiet);
   // What ended the run is said first: why results cannot be written may follow from it.
   if (!run->outcome() && !summary) {
     stop_with(kFailed, {run->outcome().error().message + "; then " + summary.error().message});
