@@ -86,10 +86,10 @@ void judge_camera(CheckBench& bench, double listened_s, Findings& findings) {
 
 void judge_all(CheckBench& bench, const Ros2CheckOptions& options, Findings& findings) {
   const auto stop = [&] { return options.stop_asked && options.stop_asked(); };
-  wait_for_presence([&] { return not_found_yet(bench); }, bench.settings.discovery_s, stop);
-  // From here on it counts: what came before was on the way to being found.
-  const auto joints_before = bench.joint_ear->heard().messages;
-  static_cast<void>(joints_before);
+  // What is missing then is said below.
+  static_cast<void>(
+      wait_for_presence([&] { return not_found_yet(bench); }, bench.settings.discovery_s, stop));
+  bench.count_from_now();
   std::this_thread::sleep_for(std::chrono::duration<double>(options.listen_s));
   judge_peers(bench.node->participant().peers(), bench.node_ear.nodes(), bench.node->options(),
               findings);

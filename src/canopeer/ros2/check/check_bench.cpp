@@ -106,6 +106,14 @@ Expected<std::unique_ptr<CheckBench>> CheckBench::open(const MissionFile& file,
   return bench;
 }
 
+void CheckBench::count_from_now() {
+  joint_ear->count_from_now();
+  counted_before.clear();
+  std::vector<std::int64_t> counts;
+  for (const ListenedTopic& topic : camera_topics()) counts.push_back(topic.count);
+  counted_before = std::move(counts);
+}
+
 std::vector<ListenedTopic> CheckBench::camera_topics() const {
   std::vector<ListenedTopic> topics;
   const auto& parts = camera->feed().intake().options().parts;
@@ -126,6 +134,7 @@ std::vector<ListenedTopic> CheckBench::camera_topics() const {
       topic.what = "info";
       topic.count = infos;
     }
+    if (i < counted_before.size()) topic.count -= counted_before[i];
     topic.key = "ros2.camera." + topic.what;
     topics.push_back(std::move(topic));
   }

@@ -23,6 +23,8 @@ struct CheckBench {
                                                                   const RobotModel& robot,
                                                                   std::function<bool()> stop_asked);
 
+  /// Messages are counted from now on.
+  void count_from_now();
   /// The camera's topics, and what came on each.
   [[nodiscard]] std::vector<ListenedTopic> camera_topics() const;
   /// How old images are when they come in; nothing: none came.
@@ -46,6 +48,7 @@ struct CheckBench {
   std::unique_ptr<Ros2Arm> arm;
   std::unique_ptr<Ros2Trolley> trolley;
   std::unique_ptr<Ros2Camera> camera;
+  std::vector<std::int64_t> counted_before;  ///< of camera_topics()
   int infos = 0;  ///< camera infos that came, under `mutex`
   mutable std::mutex mutex;
   std::vector<Subscription> subscriptions;  ///< last: they stop first

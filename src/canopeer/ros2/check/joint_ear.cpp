@@ -37,4 +37,10 @@ HeardJoints JointEar::heard() const {
   return heard;
 }
 
+void JointEar::count_from_now() {
+  const std::lock_guard lock(mutex_);
+  heard_.messages.clear();
+  heard_.without_stamp = 0;
+}
+
 }  // namespace canopeer::ros

@@ -31,6 +31,8 @@ class JointEar {
   [[nodiscard]] Expected<void> listen(Node& node, const std::vector<std::string>& topics);
   void take(const std::string& topic, const sensor_msgs::JointState& state);
   [[nodiscard]] HeardJoints heard() const;
+  /// Forgets how many messages came.
+  void count_from_now();
 
  private:
   const std::function<Stamp()> now_;
