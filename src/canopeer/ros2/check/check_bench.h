@@ -49,7 +49,7 @@ struct CheckBench {
   std::unique_ptr<Ros2Trolley> trolley;
   std::unique_ptr<Ros2Camera> camera;
   std::vector<std::int64_t> counted_before;  ///< of camera_topics()
-  int infos = 0;  ///< camera infos that came, under `mutex`
+  int infos = 0;                             ///< camera infos that came, under `mutex`
   mutable std::mutex mutex;
   std::vector<Subscription> subscriptions;  ///< last: they stop first
 };
