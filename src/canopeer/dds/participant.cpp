@@ -11,9 +11,9 @@
 // Fast DDS 2 and 3 say the same things by other names; CMake tells which one is there.
 #if CANOPEER_FAST_DDS >= 3
 #include <fastdds/LibrarySettings.hpp>
+#include <fastdds/rtps/common/WriteParams.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.hpp>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.hpp>
-#include <fastdds/rtps/common/WriteParams.hpp>
 #include <fastdds/utils/IPLocator.hpp>
 #else
 #include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
@@ -53,6 +53,9 @@ constexpr auto kOk = eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
 #endif
 
 constexpr std::uint32_t kSocketBuffer = 4u << 20;
+// Where discovery is heard (DDSI-RTPS 2.3, 9.6.1).
+constexpr int kMulticastPort = 7400;
+constexpr int kPortsOfDomain = 250;
 
 // ---- Between its values and ours --------------------------------------------------------------
 
@@ -238,7 +241,10 @@ class FastWriter final : public Writer, fast::DataWriterListener {
   bool open(fast::Topic& topic, const Qos& qos, const std::string& user_data) {
     fast::DataWriterQos to = fast::DATAWRITER_QOS_DEFAULT;
     fill(to, qos, user_data);
-    to.publish_mode().kind = fast::ASYNCHRONOUS_PUBLISH_MODE;
+    // Sent by whoever writes, as ROS does. And kept: a volatile writer lets go of samples when a
+    // reader leaves, and may lock itself up with the thread that repeats them (seen in 2.9).
+    to.publish_mode().kind = fast::SYNCHRONOUS_PUBLISH_MODE;
+    to.durability().kind = fast::TRANSIENT_LOCAL_DURABILITY_QOS;
     to.reliability().max_blocking_time = {1, 0};
     to.endpoint().history_memory_policy = rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
     // What got lost is said again soon: big messages lose fragments in small socket buffers.
@@ -247,7 +253,8 @@ class FastWriter final : public Writer, fast::DataWriterListener {
 #else
     to.reliable_writer_qos().times.heartbeatPeriod = {0, 100'000'000};
 #endif
-    writer_ = publisher_.create_datawriter(&topic, to, this, fast::StatusMask::publication_matched());
+    writer_ =
+        publisher_.create_datawriter(&topic, to, this, fast::StatusMask::publication_matched());
     return writer_ != nullptr;
   }
   [[nodiscard]] Guid guid() const override { return to_guid(writer_->guid()); }
@@ -300,9 +307,9 @@ class FastReader final : public Reader, fast::DataReaderListener {
     // Only so does the library refuse what is longer than the type's size before it makes room.
     // The room it then makes is that size, but memory only where octets arrive.
     to.endpoint().history_memory_policy = rtps::PREALLOCATED_MEMORY_MODE;
-    reader_ = subscriber_.create_datareader(
-        &topic, to, this,
-        fast::StatusMask::data_available() << fast::StatusMask::subscription_matched());
+    reader_ = subscriber_.create_datareader(&topic, to, this,
+                                            fast::StatusMask::data_available()
+                                                << fast::StatusMask::subscription_matched());
     return reader_ != nullptr;
   }
   [[nodiscard]] Guid guid() const override { return to_guid(reader_->guid()); }
@@ -346,9 +353,11 @@ std::shared_ptr<transports::UDPv4TransportDescriptor> udp_over(
   return udp;
 }
 
-rtps::Locator_t address(const std::string& ipv4) {
+/// Port 0: all that participants on that machine may have.
+rtps::Locator_t address(const std::string& ipv4, int port = 0) {
   rtps::Locator_t locator;
   rtps::IPLocator::setIPv4(locator, ipv4);
+  rtps::IPLocator::setPhysicalPort(locator, static_cast<std::uint16_t>(port));
   return locator;
 }
 
@@ -366,9 +375,9 @@ fast::DomainParticipantQos qos_of(const ParticipantOptions& options) {
   auto& builtin = qos.wire_protocol().builtin;
   // Named peers replace the multicast announcement, so it is named as well. Peers limited to this
   // machine listen to no multicast.
-  for (const char* peer : {"127.0.0.1", "239.255.0.1"}) {
-    builtin.initialPeersList.push_back(address(peer));
-  }
+  builtin.initialPeersList.push_back(address("127.0.0.1"));
+  builtin.initialPeersList.push_back(
+      address("239.255.0.1", kMulticastPort + kPortsOfDomain * options.domain));
   for (const std::string& peer : options.peers) {
     builtin.initialPeersList.push_back(address(peer));
   }
@@ -424,9 +433,10 @@ class FastParticipant final : public Participant, fast::DomainParticipantListene
     if (!made->open(**to, qos, user_data)) return fail("topic " + topic + ": no writer was made");
     return made;
   }
-  [[nodiscard]] Expected<std::unique_ptr<Reader>> reader(
-      const std::string& topic, const std::string& type, const Qos& qos,
-      std::function<void(Sample&&)> on_sample, const std::string& user_data) override {
+  [[nodiscard]] Expected<std::unique_ptr<Reader>> reader(const std::string& topic,
+                                                         const std::string& type, const Qos& qos,
+                                                         std::function<void(Sample&&)> on_sample,
+                                                         const std::string& user_data) override {
     auto from = topic_of(topic, type);
     if (!from) return tl::unexpected(from.error());
     auto made = std::make_unique<FastReader>(*subscriber_, std::move(on_sample));
@@ -436,12 +446,15 @@ class FastParticipant final : public Participant, fast::DomainParticipantListene
     return made;
   }
   [[nodiscard]] std::vector<Peer> peers() const override { return known_.peers(); }
+  [[nodiscard]] std::optional<Peer> peer(const ParticipantId& id) const override {
+    return known_.peer(id);
+  }
   [[nodiscard]] std::vector<Endpoint> endpoints() const override { return known_.endpoints(); }
   [[nodiscard]] std::optional<Endpoint> endpoint(const Guid& guid) const override {
     return known_.endpoint(guid);
   }
   [[nodiscard]] Rmw rmw_of(const ParticipantId& peer) const override { return known_.rmw_of(peer); }
-  [[nodiscard]] std::int64_t dropped() const override { return too_long_count(); }
+  [[nodiscard]] std::int64_t dropped() const override { return too_long_count() - before_; }
 
  private:
   Expected<fast::Topic*> topic_of(const std::string& name, const std::string& type) {
@@ -469,8 +482,11 @@ class FastParticipant final : public Participant, fast::DomainParticipantListene
     if (status == Status::REMOVED_PARTICIPANT || status == Status::DROPPED_PARTICIPANT) {
       known_.remove_peer(peer);
     } else if (status != Status::IGNORED_PARTICIPANT) {
-      known_.put({peer, {info.vendor_id[0], info.vendor_id[1]}, info.participant_name.to_string(),
-                  text_of(info.user_data)});
+      known_.put({peer,
+                  {info.vendor_id[0], info.vendor_id[1]},
+                  info.participant_name.to_string(),
+                  text_of(info.user_data),
+                  std::chrono::steady_clock::now()});
     }
   }
   void on_data_reader_discovery(fast::DomainParticipant*, rtps::ReaderDiscoveryStatus status,
@@ -497,8 +513,11 @@ class FastParticipant final : public Participant, fast::DomainParticipantListene
         discovery.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT) {
       known_.remove_peer(peer);
     } else {
-      known_.put({peer, {info.m_VendorId[0], info.m_VendorId[1]}, info.m_participantName.to_string(),
-                  text_of(info.m_userData)});
+      known_.put({peer,
+                  {info.m_VendorId[0], info.m_VendorId[1]},
+                  info.m_participantName.to_string(),
+                  text_of(info.m_userData),
+                  std::chrono::steady_clock::now()});
     }
   }
   void on_subscriber_discovery(fast::DomainParticipant*,
@@ -526,6 +545,7 @@ class FastParticipant final : public Participant, fast::DomainParticipantListene
   }
 
   const ParticipantOptions options_;
+  const std::int64_t before_ = too_long_count();  ///< samples dropped in this process
   ParticipantId id_{};
   KnownPeers known_;
   fast::DomainParticipant* participant_ = nullptr;
@@ -540,7 +560,6 @@ class FastParticipant final : public Participant, fast::DomainParticipantListene
 Expected<std::unique_ptr<Participant>> Participant::join(const ParticipantOptions& options) {
   const auto valid = check_here(options);
   if (!valid) return tl::unexpected(valid.error());
-  too_long_count();
   try {
     auto participant = std::make_unique<FastParticipant>(options);
     if (!participant->open()) {

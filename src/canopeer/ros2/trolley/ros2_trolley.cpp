@@ -14,10 +14,12 @@ constexpr double kAtHome = 0.1;  // each joint, rad (m)
 }  // namespace
 
 Expected<std::unique_ptr<Ros2Trolley>> Ros2Trolley::make(const TrolleyParts& parts, const Arm& arm,
-                                                         const Ros2Settings& settings) {
+                                                         const Ros2Settings& settings,
+                                                         std::function<void()> on_moved) {
   auto driver = make_trolley_driver(parts, settings);
   if (!driver) return fail_in("trolley", driver.error());
-  return std::unique_ptr<Ros2Trolley>(new Ros2Trolley(parts, arm, settings, std::move(*driver)));
+  return std::unique_ptr<Ros2Trolley>(
+      new Ros2Trolley(parts, arm, settings, std::move(*driver), std::move(on_moved)));
 }
 
 Expected<void> Ros2Trolley::check_limits(const TrolleyState& goal) const {
@@ -61,7 +63,9 @@ Expected<void> Ros2Trolley::move_to(const TrolleyState& goal) {
       !parts_.person.may_move("drive the trolley to " + in_words(goal, parts_.robot))) {
     return {};
   }
-  return driver_->drive(goal);
+  auto driven = driver_->drive(goal);
+  if (on_moved_) on_moved_();
+  return driven;
 }
 
 void Ros2Trolley::check_place(const VoxelMap* map, RgbdFrame& frame) {

@@ -16,10 +16,12 @@ namespace canopeer::ros {
 /// person wants to be asked.
 class Ros2Trolley : public Trolley {
  public:
-  /// `arm`: the trolley does not move unless that is at a home state. All parts outlive it.
+  /// `arm`: the trolley does not move unless that is at a home state. `on_moved` is told when the
+  /// trolley has come to a stop. All parts outlive it.
   [[nodiscard]] static Expected<std::unique_ptr<Ros2Trolley>> make(const TrolleyParts& parts,
                                                                    const Arm& arm,
-                                                                   const Ros2Settings& settings);
+                                                                   const Ros2Settings& settings,
+                                                                   std::function<void()> on_moved);
 
   [[nodiscard]] TrolleyState state() const override { return parts_.sense.now(); }
   [[nodiscard]] Expected<void> move_to(const TrolleyState& goal) override;
@@ -32,12 +34,13 @@ class Ros2Trolley : public Trolley {
 
  private:
   Ros2Trolley(const TrolleyParts& parts, const Arm& arm, const Ros2Settings& settings,
-              std::unique_ptr<TrolleyDriver> driver)
+              std::unique_ptr<TrolleyDriver> driver, std::function<void()> on_moved)
       : parts_(parts),
         arm_(arm),
         settings_(settings.trolley),
         dry_run_(settings.dry_run),
-        driver_(std::move(driver)) {}
+        driver_(std::move(driver)),
+        on_moved_(std::move(on_moved)) {}
   [[nodiscard]] Expected<void> check_limits(const TrolleyState& goal) const;
   [[nodiscard]] Expected<void> check_arm() const;
 
@@ -46,6 +49,7 @@ class Ros2Trolley : public Trolley {
   const Ros2TrolleySettings settings_;
   const bool dry_run_;
   std::unique_ptr<TrolleyDriver> driver_;
+  std::function<void()> on_moved_;
 };
 
 }  // namespace canopeer::ros
