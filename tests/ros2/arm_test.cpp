@@ -256,6 +256,14 @@ TEST_F(Ros2ArmTest, APersonWhoStopsTheRunCancelsTheMotionButNotTheWayHome) {
   EXPECT_EQ(move({{arm_->configuration(), home_}}).end, MotionEnd::arrived);
 }
 
+TEST_F(Ros2ArmTest, AMotionUnderWayEndsWithItsArm) {
+  start();
+  controller_->faults([](ControllerFaults& f) { f.speed = 0.05; });
+  ASSERT_TRUE(arm_->start(a_motion()));
+  arm_.reset();
+  EXPECT_TRUE(eventually([&] { return controller_->cancels() == 1; }));
+}
+
 TEST_F(Ros2ArmTest, SilentJointStatesWhileMovingAreALostArm) {
   start();
   controller_->faults([](ControllerFaults& f) { f.speed = 0.05; });
