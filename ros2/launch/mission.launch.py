@@ -1,0 +1,35 @@
+"""
+Runs a mission on a robot.
+
+ros2 launch canopeer_ros2 mission.launch.py mission:=/my/mission.yaml settings:=/my/settings.yaml rviz:=true
+"""
+
+from pathlib import Path
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
+from launch.conditions import IfCondition
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+SHARE = Path(__file__).resolve().parent.parent
+
+
+def generate_launch_description():
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument('rviz', default_value='false', description='true: RViz with what the mission publishes'),
+            DeclareLaunchArgument('rviz_config', default_value=str(SHARE / 'rviz/canopeer.rviz'), description='its configuration'),
+            IncludeLaunchDescription(
+                PythonLaunchDescriptionSource(str(SHARE / 'launch/canopeer.launch.py')),
+                launch_arguments={'command': 'run'}.items(),
+            ),
+            Node(
+                package='rviz2',
+                executable='rviz2',
+                arguments=['-d', LaunchConfiguration('rviz_config')],
+                condition=IfCondition(LaunchConfiguration('rviz')),
+            ),
+        ]
+    )
