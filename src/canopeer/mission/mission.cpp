@@ -217,7 +217,9 @@ Expected<void> Mission::State::decide() {
 /// The arm goes to the next segment's home at once: it is home before the trolley moves.
 Expected<void> Mission::State::go_home() {
   const int next = std::min(cursor.segment + 1, segments() - 1);
-  if (auto ok = segment->go_home(home_of(next)); !ok) return ok;
+  const auto arrived = segment->go_home(home_of(next));
+  if (!arrived) return tl::unexpected(arrived.error());
+  if (!*arrived) return {};  // once more, after somebody was asked
   segment->rest();
   const bool last = cursor.segment + 1 == segments();
   cursor.next = last || cursor.stopped ? Step::done : Step::drive;
@@ -231,6 +233,7 @@ Expected<void> Mission::State::listen_to_steering() {
   const double since_s = ports.clock->now_s();
   bool held = false;
   SteeringWord word = steering->ask(steering_point(false));
+  cursor.needs_person.clear();
   while (true) {
     if (auto ok = say(word); !ok) return ok;
     if (word.kind != Word::pause && word.kind != Word::wait_for_person) break;
@@ -270,6 +273,7 @@ SteeringPoint Mission::State::steering_point(bool holding) const {
   point.views = cursor.views;
   point.fruits = static_cast<int>(perception.fruits().fruits().size());
   point.holding = holding;
+  point.needs_person = cursor.needs_person;
   return point;
 }
 

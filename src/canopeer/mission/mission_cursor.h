@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "canopeer/mission/steering.h"
@@ -23,14 +24,16 @@ struct MissionCursor {
   double standing_since_s = 0.0;
   double last_standing_s = 0.0;  ///< before the last motion
   double last_motion_s = 0.0;
-  bool skip = false;     ///< told to end this segment
-  bool stopped = false;  ///< told to end the run; who goes on from here ends it too
+  std::int32_t missed_motions = 0;  ///< in a row that did not arrive
+  std::string needs_person;         ///< why the arm cannot go on by itself; told to steering once
+  bool skip = false;                ///< told to end this segment
+  bool stopped = false;             ///< told to end the run; who goes on from here ends it too
   SteeringWord::Kind said = SteeringWord::Kind::go_on;  ///< last
 
   template <typename Archive>
   void serialize(Archive& archive) {
     archive(next, segment, views, segment_start_s, standing_since_s, last_standing_s, last_motion_s,
-            skip, stopped, said);
+            missed_motions, needs_person, skip, stopped, said);
   }
 };
 

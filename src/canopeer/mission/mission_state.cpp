@@ -13,7 +13,7 @@ std::string mission_state_bytes(const MissionState& state) {
 }
 
 Expected<MissionState> parse_mission_state(std::string_view bytes, const MissionOptions& options) {
-  MissionState state{{}, {}, {}, VoxelMap(options.map), FruitMap(options.fruit), {}};
+  MissionState state{MissionCursor(), {}, {}, VoxelMap(options.map), FruitMap(options.fruit), {}};
   std::string map;
   std::string fruits;
   auto read = read_state_bytes(bytes, state.cursor, state.meters, state.traveller, map, fruits,

@@ -35,7 +35,8 @@ enum class MotionEnd {
   aborted,    ///< by the controller: a tolerance was missed, a limit reached
   cancelled,  ///< by whoever may: a person, a watchdog of ours
   preempted,  ///< somebody else moves the arm
-  stopped     ///< a protective or emergency stop: a person has to look
+  stopped,    ///< a protective or emergency stop: a person has to look
+  withheld    ///< nothing was to move: a dry run, or a person who said no
 };
 /// "arrived", "refused", …
 [[nodiscard]] std::string_view motion_end_name(MotionEnd end);

@@ -31,6 +31,9 @@ struct SteeringPoint {
   int views = 0;                ///< so far
   int fruits = 0;               ///< known now
   bool holding = false;         ///< paused or waiting; asked again and again
+  /// The arm stopped in a way that a person has to look at, and why; said at one question. Who
+  /// reaches a person answers wait_for_person until that person says go_on.
+  std::string_view needs_person{};
 };
 
 /// The one input by which people, signals, policies and services steer a mission. Asked in the

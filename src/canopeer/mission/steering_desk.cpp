@@ -12,8 +12,11 @@ void SteeringDesk::say(SteeringWord word) {
   }
 }
 
-SteeringWord SteeringDesk::ask(const SteeringPoint& /*point*/) {
+SteeringWord SteeringDesk::ask(const SteeringPoint& point) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (!point.needs_person.empty() && word_.kind < SteeringWord::Kind::pause) {
+    word_ = {SteeringWord::Kind::wait_for_person, "arm", std::string(point.needs_person)};
+  }
   if (word_.kind != SteeringWord::Kind::go_on || !next_segment_) return word_;
   return *std::exchange(next_segment_, std::nullopt);
 }

@@ -11,7 +11,7 @@ namespace canopeer {
 
 /// Takes words from other threads: a page, a service, a keyboard. `pause` and `wait_for_person`
 /// hold until `go_on` or another of them comes, `stop` stays. `next_segment` is handed over once,
-/// after a hold if there is one. Thread-safe.
+/// after a hold if there is one. When the arm needs a person it waits for one. Thread-safe.
 class SteeringDesk : public Steering {
  public:
   void say(SteeringWord word);

@@ -157,6 +157,8 @@ Json from(const MotionEvent& motion) {
                {"waypoints", motion.waypoints}, {"joint_path_rad", motion.joint_path_rad},
                {"collision", motion.collision}, {"plant_contact", motion.plant_contact}};
   if (!motion.deviations.empty()) json["deviations"] = motion.deviations;
+  if (motion.ended != MotionEvent().ended) json["ended"] = motion.ended;
+  if (!motion.why.empty()) json["why"] = motion.why;
   return json;
 }
 
@@ -171,6 +173,8 @@ MotionEvent to_motion(const Json& json) {
   motion.joint_path_rad = to_number(json.at("joint_path_rad"));
   motion.collision = json.at("collision").get<bool>();
   motion.plant_contact = json.at("plant_contact").get<bool>();
+  motion.ended = json.value("ended", motion.ended);
+  motion.why = json.value("why", motion.why);
   return motion;
 }
 

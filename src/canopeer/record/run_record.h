@@ -89,7 +89,10 @@ struct MotionEvent {
   double joint_path_rad = 0.0;     ///< Σ|Δq| along it
   bool collision =
       false;  ///< with the robot itself, the structure, or what was mapped when it started
-  bool plant_contact = false;  ///< with a part of a plant that was not mapped yet
+  bool plant_contact = false;     ///< with a part of a plant that was not mapped yet
+  std::string ended = "arrived";  ///< or why not: "refused", "aborted", "cancelled", "preempted",
+                                  ///< "stopped", "withheld"
+  std::string why;                ///< in words
 };
 
 /// Sum of work done, e.g. {"candidates", 12345, 1.2}: count and simulated seconds charged for it.

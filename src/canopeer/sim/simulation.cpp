@@ -93,7 +93,9 @@ class Simulation::SimArm : public Arm {
     // Judged now, on the map as it is when the motion starts.
     const auto pause = state_.time.pause();
     const Verdict verdict = state_.judge.judge(points_along(path), state_.trolley, state_.map);
-    outcome_ = {with_arrival_error(waypoints.back()), verdict.collision, verdict.plant_contact};
+    outcome_.q = with_arrival_error(waypoints.back());
+    outcome_.collision = verdict.collision;
+    outcome_.plant_contact = verdict.plant_contact;
     end_s_ = state_.time.now_s() + duration_s;
     return duration_s;
   }

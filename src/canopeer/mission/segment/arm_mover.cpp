@@ -1,10 +1,37 @@
 #include "canopeer/mission/segment/arm_mover.h"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "canopeer/robot/corner_rounding.h"
 
 namespace canopeer {
+namespace {
+
+constexpr int kMostMissed = 3;  // motions in a row that do not arrive
+
+/// The waypoints before the place of the way that is nearest to `q`, and `q`.
+std::vector<Configuration> way_to(const Configuration& q,
+                                  const std::vector<Configuration>& waypoints) {
+  std::size_t piece = 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + 1 < waypoints.size(); ++i) {
+    const Configuration line = waypoints[i + 1] - waypoints[i];
+    const double length2 = std::max(line.squaredNorm(), 1e-12);
+    const double s = std::clamp((q - waypoints[i]).dot(line) / length2, 0.0, 1.0);
+    const double distance = (q - waypoints[i] - s * line).norm();
+    if (distance >= nearest) continue;
+    nearest = distance;
+    piece = i;
+  }
+  std::vector<Configuration> way(waypoints.begin(),
+                                 waypoints.begin() + static_cast<std::ptrdiff_t>(piece) + 1);
+  way.push_back(q);
+  return way;
+}
+
+}  // namespace
 
 ArmMover::ArmMover(const RobotModel& robot, const Ports& ports, Traveller& traveller,
                    Timekeeper& time, EventHub& events, MissionCursor& cursor)
@@ -15,7 +42,7 @@ ArmMover::ArmMover(const RobotModel& robot, const Ports& ports, Traveller& trave
       events_(events),
       cursor_(cursor) {}
 
-Expected<void> ArmMover::move(const std::string& kind, const std::vector<Configuration>& waypoints,
+Expected<bool> ArmMover::move(const std::string& kind, const std::vector<Configuration>& waypoints,
                               const CollisionChecker& checker) {
   const JointPath path = without_needless_stops(waypoints, checker);
   MotionEvent motion;
@@ -30,19 +57,42 @@ Expected<void> ArmMover::move(const std::string& kind, const std::vector<Configu
   }
   const auto duration = time_.timer().time("arm", [&] { return ports_.arm->start(path); });
   if (!duration) return fail_in("arm", duration.error());
+
   auto told = events_.emit(MotionBegun{kind, motion.segment, motion.start_s, *duration, path});
   time_.goes_on(*duration);
   const auto outcome = time_.timer().time("arm", [&] { return ports_.arm->finish(); });
   if (!outcome) return fail_in("arm", outcome.error());
-  traveller_.took(waypoints);
+  const bool arrived = outcome->end == MotionEnd::arrived;
+  traveller_.took(arrived ? waypoints : way_to(outcome->q, waypoints));
+  if (!arrived) motion.ended = motion_end_name(outcome->end);
+  motion.why = outcome->why;
   motion.duration_s = time_.now_s() - motion.start_s;
   motion.collision = outcome->collision;
   motion.plant_contact = outcome->plant_contact;
   cursor_.last_standing_s = motion.start_s - cursor_.standing_since_s;
   cursor_.last_motion_s = motion.duration_s;
   cursor_.standing_since_s = time_.now_s();
-  if (!told) return told;
-  return events_.emit(MotionEnded{std::move(motion)});
+  if (told) told = events_.emit(MotionEnded{std::move(motion)});
+  if (told) told = mind(*outcome);
+  if (!told) return tl::unexpected(told.error());
+  return arrived;
+}
+
+/// Remembers what did not arrive: the run goes on as long as it seems to be of use.
+Expected<void> ArmMover::mind(const MotionOutcome& outcome) {
+  if (outcome.end == MotionEnd::withheld) return {};
+  if (outcome.end == MotionEnd::arrived) {
+    cursor_.missed_motions = 0;
+    return {};
+  }
+  const std::string what =
+      std::string(motion_end_name(outcome.end)) + (outcome.why.empty() ? "" : ": " + outcome.why);
+  if (outcome.end == MotionEnd::stopped || outcome.end == MotionEnd::preempted) {
+    cursor_.needs_person = what;
+  }
+  if (++cursor_.missed_motions < kMostMissed) return {};
+  return fail("arm: " + std::to_string(kMostMissed) +
+              " motions in a row did not arrive; the last " + what);
 }
 
 JointPath ArmMover::without_needless_stops(const std::vector<Configuration>& waypoints,
@@ -57,13 +107,13 @@ JointPath ArmMover::without_needless_stops(const std::vector<Configuration>& way
   return path;
 }
 
-Expected<void> ArmMover::go_home(const Configuration& home, const CollisionChecker& checker) {
+Expected<bool> ArmMover::go_home(const Configuration& home, const CollisionChecker& checker) {
   WorkMeter work;
   const auto way = time_.timer().time(
       "way home", [&] { return traveller_.way_home(where(), home, checker, work); });
   time_.pay(work);
   if (way.size() > 1) {
-    if (auto ok = move("home", way, checker); !ok) return ok;
+    if (auto arrived = move("home", way, checker); !arrived || !*arrived) return arrived;
   }
   if (robot_.endless().distance(way.back(), home) > 1e-9) {
     return fail("segment " + std::to_string(cursor_.segment) +
@@ -71,7 +121,7 @@ Expected<void> ArmMover::go_home(const Configuration& home, const CollisionCheck
                 "blocked by plants?");
   }
   traveller_.forget_way(where());
-  return {};
+  return true;
 }
 
 Expected<void> ArmMover::drive(const TrolleyState& goal) {

@@ -21,18 +21,20 @@ class ArmMover {
   [[nodiscard]] Configuration where() const { return ports_.arm->configuration(); }
 
   /// Along the waypoints, the first of which is where the arm is. It stops where it must only:
-  /// corners are rounded as far as `checker` allows. `kind`: "view" or "home".
-  [[nodiscard]] Expected<void> move(const std::string& kind,
+  /// corners are rounded as far as `checker` allows. `kind`: "view" or "home". False: it did not
+  /// arrive and stands somewhere on its way. The error: that happens again and again.
+  [[nodiscard]] Expected<bool> move(const std::string& kind,
                                     const std::vector<Configuration>& waypoints,
                                     const CollisionChecker& checker);
-  /// To `home`; the error says that no way was found.
-  [[nodiscard]] Expected<void> go_home(const Configuration& home, const CollisionChecker& checker);
+  /// To `home`; false: it did not arrive. The error says that no way was found.
+  [[nodiscard]] Expected<bool> go_home(const Configuration& home, const CollisionChecker& checker);
   /// The trolley, with the arm at home; nothing happens when it is there.
   [[nodiscard]] Expected<void> drive(const TrolleyState& goal);
 
  private:
   [[nodiscard]] JointPath without_needless_stops(const std::vector<Configuration>& waypoints,
                                                  const CollisionChecker& checker);
+  [[nodiscard]] Expected<void> mind(const MotionOutcome& outcome);
 
   const RobotModel& robot_;
   Ports ports_;

@@ -105,7 +105,7 @@ Expected<void> SegmentRunner::end() {
   return tools_.events.emit(SegmentEnded{index_, std::min(tools_.time.now_s(), latest_s)});
 }
 
-Expected<void> SegmentRunner::go_home(const Configuration& home) {
+Expected<bool> SegmentRunner::go_home(const Configuration& home) {
   return tools_.arm.go_home(home, checker_);
 }
 
@@ -197,8 +197,12 @@ Expected<void> SegmentRunner::take(const ViewMotion& motion) {
         tools_.time.background().beside([](Planner& planner) { return planner.sketch(); }));
   }
   if (auto ok = tools_.events.emit(std::move(planned)); !ok) return ok;
-  if (auto ok = tools_.arm.move("view", motion.waypoints, checker_); !ok) return ok;
-  return observe(motion.kind, motion.predicted_gain);
+  const auto arrived = tools_.arm.move("view", motion.waypoints, checker_);
+  if (!arrived) return tl::unexpected(arrived.error());
+  if (*arrived) return observe(motion.kind, motion.predicted_gain);
+  // Where it stands is a place as good as another, but twice in a row asks for another way.
+  if (tools_.cursor.missed_motions > 1) return recover();
+  return observe(motion.kind, std::nullopt);
 }
 
 /// The planner knows no way on. At another place it may: home is one that can always be reached.
@@ -208,7 +212,7 @@ Expected<void> SegmentRunner::recover() {
     tools_.time.pass(1.0);
     return {};
   }
-  if (auto ok = go_home(frame_.home); !ok) return ok;
+  if (auto arrived = go_home(frame_.home); !arrived) return tl::unexpected(arrived.error());
   return observe(TargetKind::none, std::nullopt);
 }
 

@@ -53,6 +53,12 @@ std::string interventions(const RunRecord& record) {
                                e.by.empty() ? "" : " by \u201c" + e.by + "\u201d",
                                e.why.empty() ? "" : ": " + e.why));
   }
+  for (const MotionEvent& m : record.motions) {
+    if (m.ended == MotionEvent().ended) continue;
+    html += notice(fmt::format("After {} the arm did not arrive: {}{}{}.",
+                               duration_text(m.start_s + m.duration_s), m.ended,
+                               m.why.empty() ? "" : ", ", m.why));
+  }
   for (const FaultEvent& e : record.faults) {
     html += notice(fmt::format("After {} it failed: {}.", duration_text(e.t_s), e.message));
   }
