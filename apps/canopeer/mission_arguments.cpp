@@ -1,11 +1,25 @@
 #include "mission_arguments.h"
 
+#include <CLI/CLI.hpp>
+
 #include "exit_status.h"
 #include "fuel_caches.h"
 #include "robot_source.h"
 #include "shipped_data.h"
 
 namespace canopeer::app {
+
+void add_mission(CLI::App& command, MissionArguments& mission) {
+  command
+      .add_option("mission", mission.path,
+                  "Mission file (YAML), or the name of a shipped one, e.g. scenario_1")
+      ->required();
+  command.add_option("--seed", mission.seed, "Seed of everything random");
+  command
+      .add_option("--set", mission.settings, "Override a setting, dotted.key=value (repeatable)")
+      ->expected(1)
+      ->take_all();
+}
 
 StageRequest stage_request(const MissionArguments& arguments, const Overrides& extra) {
   StageRequest request;

@@ -9,22 +9,14 @@
 #include "completion.h"
 #include "exit_status.h"
 #include "manual.h"
+#include "mission_arguments.h"
+#ifdef CANOPEER_ROS2
+#include "ros2_commands.h"
+#endif
 #include "shipped_data.h"
 
 namespace canopeer::app {
 namespace {
-
-void add_mission(CLI::App& command, MissionArguments& mission) {
-  command
-      .add_option("mission", mission.path,
-                  "Mission file (YAML), or the name of a shipped one, e.g. scenario_1")
-      ->required();
-  command.add_option("--seed", mission.seed, "Seed of everything random");
-  command
-      .add_option("--set", mission.settings, "Override a setting, dotted.key=value (repeatable)")
-      ->expected(1)
-      ->take_all();
-}
 
 std::string comma_list(const std::vector<std::string>& names) {
   std::string list;
@@ -323,6 +315,10 @@ int parse_and_run(int argc, char** argv, const RunRegistries& registries) {
   add_map(app, map_arguments);
   RobotCheckArguments robot_arguments;
   add_robot(app, robot_arguments);
+#ifdef CANOPEER_ROS2
+  Ros2Arguments ros2_arguments;
+  add_ros2(app, ros2_arguments, registries);
+#endif
   DoctorArguments doctor_arguments;
   doctor_arguments.registries = &registries;
   add_doctor(app, doctor_arguments);
