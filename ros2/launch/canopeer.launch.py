@@ -18,7 +18,7 @@ PLAIN = {
     'seed': 'of everything random',
     'set': 'more settings, as "key=value key=value"',
     'options': 'more options of the command, as "--this --that value"',
-    'name': 'of the node',
+    'name': 'of the node; empty: canopeer',
     'namespace': 'of the node',
 }
 
@@ -46,6 +46,12 @@ SETTINGS = {
     'trolley_action': ('ros2.trolley.action', 'FollowJointTrajectory of the trolley'),
 }
 
+# What the node publishes under its own name, `~/…`. Argument `fruits_topic` renames `~/fruits`.
+OUTPUTS = (
+    'occupied_voxels', 'roi_voxels', 'octomap_binary', 'octomap_full', 'fruits', 'fruit_markers',
+    'graph', 'path', 'frustum', 'detections', 'progress',
+)  # fmt: skip
+
 
 def start(context):
     def said(argument):
@@ -70,6 +76,7 @@ def start(context):
             name=said('name') or None,
             namespace=said('namespace') or None,
             arguments=arguments,
+            remappings=[(f'~/{out}', said(f'{out}_topic')) for out in OUTPUTS if said(f'{out}_topic')],
             output='screen',
             emulate_tty=True,
         )
@@ -78,6 +85,7 @@ def start(context):
 
 def generate_launch_description():
     about = {**PLAIN, **{argument: what for argument, (_, what) in SETTINGS.items()}}
+    about.update({f'{out}_topic': f'another name for ~/{out}' for out in OUTPUTS})
     defaults = {'command': 'run', 'mission': 'smoke'}
     return LaunchDescription(
         [

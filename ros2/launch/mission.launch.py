@@ -7,13 +7,30 @@ ros2 launch canopeer_ros2 mission.launch.py mission:=/my/mission.yaml settings:=
 from pathlib import Path
 
 from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
-from launch.conditions import IfCondition
+from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription, OpaqueFunction
 from launch.launch_description_sources import PythonLaunchDescriptionSource
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
 SHARE = Path(__file__).resolve().parent.parent
+SHOWN = ('occupied_voxels', 'roi_voxels', 'octomap_binary', 'fruits', 'fruit_markers', 'graph', 'path', 'frustum', 'detections')
+
+
+def start_rviz(context):
+    def said(argument):
+        return LaunchConfiguration(argument).perform(context)
+
+    if said('rviz') != 'true':
+        return []
+    node = '/'.join(['', *said('namespace').split('/'), said('name') or 'canopeer']).replace('//', '/')
+    return [
+        Node(
+            package='rviz2',
+            executable='rviz2',
+            arguments=['-d', said('rviz_config')],
+            remappings=[(f'/canopeer/{topic}', said(f'{topic}_topic') or f'{node}/{topic}') for topic in SHOWN],
+        )
+    ]
 
 
 def generate_launch_description():
@@ -25,11 +42,6 @@ def generate_launch_description():
                 PythonLaunchDescriptionSource(str(SHARE / 'launch/canopeer.launch.py')),
                 launch_arguments={'command': 'run'}.items(),
             ),
-            Node(
-                package='rviz2',
-                executable='rviz2',
-                arguments=['-d', LaunchConfiguration('rviz_config')],
-                condition=IfCondition(LaunchConfiguration('rviz')),
-            ),
+            OpaqueFunction(function=start_rviz),
         ]
     )

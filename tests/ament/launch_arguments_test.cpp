@@ -20,8 +20,7 @@ const fs::path kRoot = CANOPEER_SOURCE_DIR;
 Expected<MissionFile> one_stop_with(const Overrides& more) {
   Overrides overrides = {{"robot", (kRoot / "robots/ur5e_trolley/robot.yaml").string()}};
   overrides.insert(overrides.end(), more.begin(), more.end());
-  return load_mission(kRoot / "ros2/missions/one_stop.yaml", overrides,
-                      {kRoot / "compute_tables"}, Registries{});
+  return load_mission(kRoot / "ros2/missions/one_stop.yaml", overrides, {kRoot / "compute_tables"});
 }
 
 TEST(AmentPackage, SettingsOfEveryRobotAreUnderstood) {
