@@ -75,6 +75,7 @@ void read_ros2_output(YamlMap output, Ros2OutputSettings& o) {
   o.enabled = output.boolean("enabled", o.enabled);
   o.robot_description = output.boolean("robot_description", o.robot_description);
   o.tf = output.boolean("tf", o.tf);
+  o.map_frame = output.text("map_frame", o.map_frame);
   o.map_rate_hz = output.number("map_rate_hz", o.map_rate_hz, {0.0, 100.0});
   o.image_rate_hz = output.number("image_rate_hz", o.image_rate_hz, {0.0, 100.0});
 }
@@ -103,6 +104,7 @@ Ros2Settings read_ros2_keys(YamlMap& ros2) {
   read_ros2_output(ros2.map("output"), o.output);
   o.dry_run = ros2.boolean("dry_run", o.dry_run);
   o.confirm = ros2.boolean("confirm", o.confirm);
+  o.wait_for_start = ros2.boolean("wait_for_start", o.wait_for_start);
   if (auto ok = o.validate(); !ok) complain_where_it_is(ros2, ok.error().message);
   return o;
 }

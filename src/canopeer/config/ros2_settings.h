@@ -74,6 +74,7 @@ struct Ros2OutputSettings {
   bool enabled = true;
   bool robot_description = true;  ///< where nobody else does
   bool tf = true;                 ///< where nobody else does
+  std::string map_frame = "map";  ///< what the mission's world is called
   double map_rate_hz = 1.0;       ///< at most so many maps a second
   double image_rate_hz = 2.0;
 };
@@ -93,8 +94,9 @@ struct Ros2Settings {
   Ros2CameraSettings camera;
   Ros2TrolleySettings trolley;
   Ros2OutputSettings output;
-  bool dry_run = false;  ///< plans and publishes, never moves
-  bool confirm = false;  ///< every motion is asked for
+  bool dry_run = false;         ///< plans and publishes, never moves
+  bool confirm = false;         ///< every motion is asked for
+  bool wait_for_start = false;  ///< nothing is done until `~/start` is called
 
   /// The error names the key.
   [[nodiscard]] Expected<void> validate() const;

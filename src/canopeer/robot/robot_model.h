@@ -40,7 +40,8 @@ struct RobotSetup {
                    ///< blocks. Empty: no such place is known
 };
 
-/// Kinematics of an arm with a camera on a trolley. Immutable, so safe to share between threads.
+/// Kinematics of an arm with a camera on a trolley. Const members are safe to call from several
+/// threads.
 class RobotModel {
  public:
   /// Checks that the description is one tree, and that the setup's names are in it with the right
@@ -55,6 +56,9 @@ class RobotModel {
   [[nodiscard]] const JointLimits& limits() const { return limits_; }
   /// The limits, with −π … π for joints that turn without end: each place once. To draw from.
   [[nodiscard]] const JointLimits& span() const { return span_; }
+  /// Every motion of the arm takes 1/speed as long from now on, on the same path: its limits of
+  /// velocity are `speed` (0, 1] of what they were, those of acceleration the square of it.
+  void slow_down(double speed);
   /// Which joints turn without end.
   [[nodiscard]] const EndlessJoints& endless() const { return endless_; }
   /// Up to kLimitTolerance.

@@ -86,6 +86,10 @@ MotionOutcome motion_ending(const MotionReport& report) {
   const GoalEnding& goal = report.goal;
   const std::string& said = goal.result.error_string;
   if (goal.state == GoalState::succeeded) return succeeded(report);
+  if (goal.state == GoalState::unknown) {
+    return outcome(MotionEnd::stopped,
+                   "the controller does not know the motion any more: it was started anew");
+  }
   if (report.safety_stop) return outcome(MotionEnd::stopped, *report.safety_stop);
   if (goal.cancelled) return outcome(MotionEnd::cancelled, *goal.cancelled);
   if (speaks_of_stop(said)) return outcome(MotionEnd::stopped, said);

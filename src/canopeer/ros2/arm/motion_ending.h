@@ -25,6 +25,7 @@ struct MotionReport {
 /// - The robot is in a safety stop, or the controller's words speak of one: stopped. So it is when
 ///   the controller gave up while the arm stood still against its will.
 /// - Succeeded, but the arm is elsewhere: aborted. Succeeded with an error code: aborted.
+/// - The controller has forgotten it: stopped.
 /// - We cancelled it: cancelled. Somebody else did, or took the arm: preempted.
 [[nodiscard]] MotionOutcome motion_ending(const MotionReport& report);
 

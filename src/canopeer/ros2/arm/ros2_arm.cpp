@@ -126,7 +126,7 @@ double Ros2Arm::hold_back(MotionEnd end, std::string why, double duration_s) {
 
 Expected<double> Ros2Arm::start(const JointPath& path) {
   held_back_.reset();
-  stop_was_asked_ = parts_.person.stop_asked && parts_.person.stop_asked();
+  stop_was_asked_ = parts_.person.stop();
   if (auto ok = fresh(); !ok) return tl::unexpected(ok.error());
   if (auto refused = refusal(path)) {
     held_back_ = std::move(refused);
@@ -172,7 +172,7 @@ Expected<MotionOutcome> Ros2Arm::finish() {
 void Ros2Arm::wait_out(double duration_s) const {
   const double end_s = parts_.clock.now_s() + duration_s;
   while (parts_.clock.now_s() < end_s && parts_.clock.check()) {
-    if (!stop_was_asked_ && parts_.person.stop_asked && parts_.person.stop_asked()) return;
+    if (!stop_was_asked_ && parts_.person.stop()) return;
     parts_.clock.sleep(0.01);
   }
 }
@@ -181,7 +181,7 @@ std::optional<std::string> Ros2Arm::cancel_reason() const {
   if (safety_ != nullptr) {
     if (auto stop = safety_->stop()) return stop;
   }
-  if (!stop_was_asked_ && parts_.person.stop_asked && parts_.person.stop_asked()) {
+  if (!stop_was_asked_ && parts_.person.stop()) {
     return "the run is to stop";
   }
   return std::nullopt;

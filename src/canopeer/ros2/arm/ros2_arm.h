@@ -10,19 +10,12 @@
 #include "canopeer/mission/ports.h"
 #include "canopeer/robot/robot_model.h"
 #include "canopeer/ros2/arm/motion_ending.h"
+#include "canopeer/ros2/arm/person_hooks.h"
 #include "canopeer/ros2/arm/safety_mode.h"
 #include "canopeer/ros2/time/joint_history.h"
 #include "canopeer/ros2/time/ros_clock.h"
 
 namespace canopeer::ros {
-
-/// What a person may say about a motion; both may be empty.
-struct PersonHooks {
-  /// A person wants the run to stop: motions under way end. Once true it may stay so.
-  std::function<bool()> stop_asked;
-  /// Asks whether a motion, described in one line, may be; waits for the answer. Empty: it may.
-  std::function<bool(const std::string& motion)> may_move;
-};
 
 /// An arm behind a FollowJointTrajectory action. Nothing moves without fresh joint states, nor from
 /// elsewhere than where the arm is.

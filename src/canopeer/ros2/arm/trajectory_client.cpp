@@ -9,7 +9,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kLook(10);      // between two looks at who may end a goal
+constexpr milliseconds kGoalLook(10);  // between two looks at who may end a goal
 constexpr milliseconds kAnswer(2000);  // to a goal
 constexpr milliseconds kCancelAnswer(500);
 constexpr milliseconds kBraking(5000);         // after a goal was cancelled, until its result
@@ -57,7 +57,7 @@ Expected<bool> TrajectoryClient::send(const FollowJointTrajectory::Goal& goal) {
 /// The end of the goal, if it comes in a moment. One whose result is lost ends without.
 std::optional<GoalEnding> TrajectoryClient::wait_a_little() const {
   std::unique_lock lock(news_->mutex);
-  news_->changed.wait_for(lock, kLook, [this] { return news_->result.has_value(); });
+  news_->changed.wait_for(lock, kGoalLook, [this] { return news_->result.has_value(); });
   if (news_->result) return news_->result;
   if (!news_->ended || Steady::now() - *news_->ended < kResultAfterEnd) return std::nullopt;
   return GoalEnding{news_->status, {0, "its result did not come"}, std::nullopt};
