@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "canopeer/config/mission_file.h"
 #include "canopeer/import/world_import.h"
 #include "canopeer/run/run_registries.h"
 
@@ -16,6 +17,7 @@ struct MissionArguments {
   std::string path;
   std::vector<std::string> settings;  ///< "dotted.key=value"
   std::optional<std::uint64_t> seed;
+  Overrides ros2;  ///< settings said in ROS 2's way, before the others
 };
 
 struct RunArguments {

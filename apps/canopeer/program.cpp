@@ -11,7 +11,9 @@
 #include "manual.h"
 #include "mission_arguments.h"
 #ifdef CANOPEER_ROS2
+#include "canopeer/ros2/ros2_site.h"
 #include "ros2_commands.h"
+#include "ros2_words.h"
 #endif
 #include "shipped_data.h"
 
@@ -317,7 +319,15 @@ int parse_and_run(int argc, char** argv, const RunRegistries& registries) {
   add_robot(app, robot_arguments);
 #ifdef CANOPEER_ROS2
   Ros2Arguments ros2_arguments;
+  const ros::RosArguments ros_arguments = take_ros_arguments(argc, argv);
+  ros2_arguments.robot.node = ros_arguments.node.value_or(ros2_arguments.robot.node);
+  ros2_arguments.robot.mission.ros2 = ros2_settings(ros_arguments, ros2_arguments.robot.node);
+  run_arguments.mission.ros2 = ros2_settings(ros_arguments, Ros2Settings().node);
   add_ros2(app, ros2_arguments, registries);
+  std::vector<std::string> words(ros_arguments.rest.rbegin(), ros_arguments.rest.rend() - 1);
+#else
+  std::vector<std::string> words(std::make_reverse_iterator(argv + argc),
+                                 std::make_reverse_iterator(argv + 1));
 #endif
   DoctorArguments doctor_arguments;
   doctor_arguments.registries = &registries;
@@ -334,7 +344,8 @@ int parse_and_run(int argc, char** argv, const RunRegistries& registries) {
     return kDone;
   }
   try {
-    app.parse(argc, argv);
+    app.name(argv[0]);
+    app.parse(std::move(words));
   } catch (const CLI::ParseError& error) {
     std::fflush(stdout);
     return app.exit(error) == 0 ? kDone : kBadInput;
@@ -347,8 +358,12 @@ int parse_and_run(int argc, char** argv, const RunRegistries& registries) {
 
 namespace canopeer {
 
-int run_program(int argc, char** argv, const RunRegistries& registries) {
+int run_program(int argc, char** argv, const RunRegistries& with) {
   app::open_standard_streams();
+  RunRegistries registries = with;
+#ifdef CANOPEER_ROS2
+  add_ros2_site(registries.sites);
+#endif
   try {
     const int status = app::parse_and_run(argc, argv, registries);
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;

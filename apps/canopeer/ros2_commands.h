@@ -11,6 +11,7 @@ namespace canopeer::app {
 
 struct Ros2RobotArguments {
   MissionArguments mission;
+  std::string node = "simulated_robot";
   std::vector<std::string> faults;
   std::optional<double> for_s;  ///< none: until it is interrupted
   double camera_rate_hz = 6.0;

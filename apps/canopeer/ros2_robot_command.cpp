@@ -15,6 +15,7 @@ namespace {
 
 Ros2RobotOptions robot_options(const Ros2RobotArguments& a) {
   Ros2RobotOptions options;
+  options.node = a.node;
   options.faults = a.faults;
   options.camera_rate_hz = a.camera_rate_hz;
   options.camera_latency_s = a.camera_latency_s;

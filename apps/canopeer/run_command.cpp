@@ -28,12 +28,18 @@ Overrides overrides_of(const RunArguments& arguments) {
 
 std::unique_ptr<Run> compose(const RunArguments& arguments) {
   ImportLine line(arguments.quiet);
-  StageRequest request = stage_request(arguments.mission, overrides_of(arguments));
+  const Overrides overrides = overrides_of(arguments);
+  StageRequest request = stage_request(arguments.mission, overrides);
   request.site = arguments.site;
   request.realtime = arguments.realtime;
   request.threads = arguments.threads;
   request.callbacks = callbacks_for_people(line, arguments.quiet);
-  return value_or_stop(Run::compose(request, *arguments.mission.registries, arguments.out),
+  request.callbacks.on_message = [](const std::string& text) {
+    std::fprintf(stderr, "canopeer: %s\n", text.c_str());
+  };
+  request.callbacks.stop_asked = [&stop = catch_stop_signals()] { return stop.load(); };
+  return value_or_stop(Run::compose(load(arguments.mission, overrides), request,
+                                    *arguments.mission.registries, arguments.out),
                        kBadInput);
 }
 

@@ -148,6 +148,11 @@ bool YamlMap::is_text(std::string_view key) const {
   return node != nullptr && node->kind == Kind::kScalar;
 }
 
+bool YamlMap::is_map(std::string_view key) const {
+  const YamlNode* const node = node_->find(key);
+  return node != nullptr && node->kind == Kind::kMap;
+}
+
 YamlNode* YamlMap::take(std::string_view key) {
   node_->asked.emplace(key);
   return node_->find(key);

@@ -47,6 +47,7 @@ class YamlMap {
   [[nodiscard]] bool has(std::string_view key) const;
   /// It is there, and neither a mapping nor a sequence nor nothing.
   [[nodiscard]] bool is_text(std::string_view key) const;
+  [[nodiscard]] bool is_map(std::string_view key) const;
 
   double number(std::string_view key, double fallback, NumberRange range = {});
   double required_number(std::string_view key, NumberRange range = {});

@@ -2,11 +2,10 @@
 
 #include <cstdio>
 
-#include "canopeer/base/atomic_file.h"
 #include "canopeer/cdr/messages/std_srvs.h"
-#include "canopeer/config/yaml_reader.h"
 #include "canopeer/dds/service.h"
 #include "canopeer/ros2/node_of_settings.h"
+#include "canopeer/ros2/out/robot_description_text.h"
 #include "canopeer/ros2/robot/robot_camera.h"
 #include "canopeer/ros2/robot/robot_control.h"
 
@@ -20,16 +19,9 @@ RgbdSensorOptions camera_of(const SimulationOptions& options) {
   return sensor;
 }
 
-ros::RobotPlace first_place(const MissionFile& file, const RobotModel& robot) {
+ros::SimulatedPlace first_place(const MissionFile& file, const RobotModel& robot) {
   const SegmentPlan& first = file.mission.segments.front();
   return {robot.home("side_" + std::to_string(first.side)), first.trolley};
-}
-
-/// The URDF that a robot.yaml names, as it is.
-Expected<std::string> urdf_text(const std::filesystem::path& robot_file) {
-  auto yaml = YamlMap::load(robot_file);
-  if (!yaml) return tl::unexpected(yaml.error());
-  return read_file(robot_file.parent_path() / yaml->required_text("urdf"));
 }
 
 }  // namespace
@@ -86,7 +78,7 @@ Expected<void> Ros2Robot::State::start(const MissionFile& file, const Ros2RobotO
   auto made = ros::Node::make(node_of(names));
   if (!made) return tl::unexpected(made.error());
   node = std::move(*made);
-  auto urdf = urdf_text(file.robot);
+  auto urdf = ros::robot_description_text(file.robot);
   if (!urdf) return tl::unexpected(urdf.error());
   auto said = node->advertise<ros::std_msgs::String>("/robot_description", ros::kLatchedQos);
   if (!said) return tl::unexpected(said.error());

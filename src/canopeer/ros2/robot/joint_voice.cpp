@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "canopeer/ros2/arm/joint_listener.h"
+
 namespace canopeer::ros {
 
 Expected<std::unique_ptr<JointVoice>> JointVoice::make(Node& node, const Ros2ArmSettings& names,
@@ -11,10 +13,10 @@ Expected<std::unique_ptr<JointVoice>> JointVoice::make(Node& node, const Ros2Arm
                                                        const RobotFaults& faults) {
   std::unique_ptr<JointVoice> voice(new JointVoice(robot, clock, faults));
   for (const std::string& joint : robot.setup().arm_joints) {
-    voice->arm_names_.push_back(driver_name(names.joint_names, joint));
+    voice->arm_names_.push_back(drivers_name(names.joint_names, joint));
   }
   for (const std::string& joint : voice->axes_.joints()) {
-    voice->trolley_names_.push_back(driver_name(names.joint_names, joint));
+    voice->trolley_names_.push_back(drivers_name(names.joint_names, joint));
   }
   if (auto ok = voice->advertise(node, names, split); !ok) return tl::unexpected(ok.error());
   return voice;
@@ -43,7 +45,7 @@ Expected<void> JointVoice::advertise(Node& node, const Ros2ArmSettings& names, b
   nonsense_ = std::move(*nonsense);
   tf_ = std::move(*tf);
   tf_static_ = std::move(*tf_static);
-  tf_static_.publish(frames_.fixed(clock_.said(clock_.now())));
+  tf_static_.publish(frames_.fixed(stamp_of(clock_.said(clock_.now()))));
   if (clock_.simulated()) {
     auto time = node.advertise<rosgraph_msgs::Clock>("/clock");
     if (!time) return tl::unexpected(time.error());
@@ -59,7 +61,7 @@ void JointVoice::say(Stamp time, const JointsState& arm, const JointsState& trol
   if (faults_.on(RobotFault::joint_states_silent)) return;
   say_joints(stamp, arm, trolley);
   if (with_tf && tf_.readers() > 0) {
-    tf_.publish(frames_.moving(arm.position, axes_.state(trolley.position), stamp));
+    tf_.publish(frames_.moving(arm.position, axes_.state(trolley.position), stamp_of(stamp)));
   }
 }
 

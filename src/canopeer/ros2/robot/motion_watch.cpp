@@ -17,7 +17,7 @@ MotionWatch::MotionWatch(const MotionJudge& judge)
 
 MotionWatch::~MotionWatch() = default;
 
-void MotionWatch::see(const RobotPlace& place, bool standing) {
+void MotionWatch::see(const SimulatedPlace& place, bool standing) {
   if (under_way_.empty() || joint_distance(under_way_.back(), place.q) > kApart) {
     under_way_.push_back(place.q);
   }

@@ -24,7 +24,7 @@ class MotionWatch {
   ~MotionWatch();
 
   /// Where the arm is now; called by one thread, at the rate of its control.
-  void see(const RobotPlace& place, bool standing);
+  void see(const SimulatedPlace& place, bool standing);
   /// Of all motions that ended; waits until they are judged.
   [[nodiscard]] Counts counts();
 

@@ -1,19 +1,11 @@
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
 #include "canopeer/robot/robot_model.h"
 
 namespace canopeer::ros {
-
-/// A joint of the URDF as the robot's driver calls it.
-[[nodiscard]] inline std::string driver_name(const std::map<std::string, std::string>& names,
-                                             const std::string& joint) {
-  const auto found = names.find(joint);
-  return found == names.end() ? joint : found->second;
-}
 
 /// The axes of a trolley that there are, travel before lift, as joints of a controller.
 class TrolleyAxes {

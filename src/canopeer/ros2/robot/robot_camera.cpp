@@ -103,7 +103,7 @@ void RobotCamera::wait_until(Stamp time, const std::stop_token& stop) {
 
 std::optional<RobotCamera::Shot> RobotCamera::take(Stamp exposure) {
   // The joints' places around that time are known at the next tick of their control.
-  std::optional<RobotPlace> place;
+  std::optional<SimulatedPlace> place;
   for (int tries = 0; tries < 50 && !(place = history_.at(exposure)); ++tries) {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }

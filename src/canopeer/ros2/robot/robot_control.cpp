@@ -1,5 +1,7 @@
 #include "canopeer/ros2/robot/robot_control.h"
 
+#include "canopeer/ros2/arm/joint_listener.h"
+
 namespace canopeer::ros {
 namespace {
 
@@ -11,7 +13,8 @@ constexpr int kScalingEvery = 25;
 std::vector<std::string> driver_names(const Ros2Settings& names,
                                       const std::vector<std::string>& joints) {
   std::vector<std::string> said;
-  for (const std::string& joint : joints) said.push_back(driver_name(names.arm.joint_names, joint));
+  for (const std::string& joint : joints)
+    said.push_back(drivers_name(names.arm.joint_names, joint));
   return said;
 }
 
@@ -38,8 +41,8 @@ TrajectoryController trolley_controller(const Ros2Settings& names, const Trolley
 
 Expected<std::unique_ptr<RobotControl>> RobotControl::start(const Parts& parts,
                                                             const Ros2Settings& names,
-                                                            const RobotPlace& place, double rate_hz,
-                                                            bool split) {
+                                                            const SimulatedPlace& place,
+                                                            double rate_hz, bool split) {
   std::unique_ptr<RobotControl> control(new RobotControl(parts, names, place));
   if (auto ok = control->join(names, split); !ok) return tl::unexpected(ok.error());
   control->worker_ = std::jthread(
@@ -47,7 +50,8 @@ Expected<std::unique_ptr<RobotControl>> RobotControl::start(const Parts& parts,
   return control;
 }
 
-RobotControl::RobotControl(const Parts& parts, const Ros2Settings& names, const RobotPlace& place)
+RobotControl::RobotControl(const Parts& parts, const Ros2Settings& names,
+                           const SimulatedPlace& place)
     : parts_(parts),
       axes_(parts.robot),
       arm_(arm_controller(parts, names, place.q), parts.faults, true) {
@@ -120,7 +124,7 @@ void RobotControl::tick(Stamp now, double dt_s, std::int64_t number) {
     trolley_->tick(dt_s, with_feedback, stamp);
     trolley = trolley_->actual();
   }
-  const RobotPlace place{arm.position, axes_.state(trolley.position)};
+  const SimulatedPlace place{arm.position, axes_.state(trolley.position)};
   parts_.history.add(now, place);
   parts_.watch.see(place, !arm_.moving());
   say_safety_mode();

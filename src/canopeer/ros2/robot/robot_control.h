@@ -26,14 +26,14 @@ class RobotControl {
   };
   [[nodiscard]] static Expected<std::unique_ptr<RobotControl>> start(const Parts& parts,
                                                                      const Ros2Settings& names,
-                                                                     const RobotPlace& place,
+                                                                     const SimulatedPlace& place,
                                                                      double rate_hz, bool split);
   ~RobotControl();
   [[nodiscard]] TrajectoryServer::Counts arm_counts() const { return arm_.counts(); }
   void release() { arm_.release(); }
 
  private:
-  RobotControl(const Parts& parts, const Ros2Settings& names, const RobotPlace& place);
+  RobotControl(const Parts& parts, const Ros2Settings& names, const SimulatedPlace& place);
   [[nodiscard]] Expected<void> join(const Ros2Settings& names, bool split);
   void work(double rate_hz, const std::stop_token& stop);
   void say_safety_mode();

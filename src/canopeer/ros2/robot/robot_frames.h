@@ -1,7 +1,11 @@
 #pragma once
 
+#include <set>
+#include <string>
+
 #include "canopeer/cdr/messages/tf2_msgs.h"
 #include "canopeer/robot/robot_model.h"
+#include "canopeer/ros2/time/stamp.h"
 
 namespace canopeer::ros {
 
@@ -13,20 +17,14 @@ class RobotFrames {
   explicit RobotFrames(const RobotModel& robot);
 
   /// Frames that never move against their parents; for /tf_static.
-  [[nodiscard]] tf2_msgs::TFMessage fixed(const builtin_interfaces::Time& stamp) const;
+  [[nodiscard]] tf2_msgs::TFMessage fixed(Stamp stamp) const;
   /// The others; for /tf.
   [[nodiscard]] tf2_msgs::TFMessage moving(const Configuration& q, const TrolleyState& trolley,
-                                           const builtin_interfaces::Time& stamp) const;
+                                           Stamp stamp) const;
 
  private:
-  struct Frame {
-    int parent;  ///< link
-    int link;
-  };
   const RobotModel& robot_;
-  std::vector<Frame> fixed_;
-  std::vector<Frame> moving_;
-  std::string root_;
+  std::set<std::string> moving_;  ///< links
 };
 
 }  // namespace canopeer::ros

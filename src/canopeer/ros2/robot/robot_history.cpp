@@ -8,13 +8,13 @@ namespace {
 constexpr Stamp kRemembered = 5 * kNanosecondsPerSecond;
 }
 
-void RobotHistory::add(Stamp time, const RobotPlace& place) {
+void RobotHistory::add(Stamp time, const SimulatedPlace& place) {
   const std::scoped_lock lock(mutex_);
   entries_.push_back({time, place});
   while (entries_.front().time < time - kRemembered) entries_.pop_front();
 }
 
-std::optional<RobotPlace> RobotHistory::at(Stamp time) const {
+std::optional<SimulatedPlace> RobotHistory::at(Stamp time) const {
   const std::scoped_lock lock(mutex_);
   const auto after = std::lower_bound(entries_.begin(), entries_.end(), time,
                                       [](const Entry& e, Stamp t) { return e.time < t; });
@@ -23,9 +23,9 @@ std::optional<RobotPlace> RobotHistory::at(Stamp time) const {
   const Entry& b = *after;
   const double s = static_cast<double>(time - a.time) / static_cast<double>(b.time - a.time);
   const auto between = [s](double x, double y) { return x + s * (y - x); };
-  return RobotPlace{a.place.q + s * (b.place.q - a.place.q),
-                    {between(a.place.trolley.travel_m, b.place.trolley.travel_m),
-                     between(a.place.trolley.lift_m, b.place.trolley.lift_m)}};
+  return SimulatedPlace{a.place.q + s * (b.place.q - a.place.q),
+                        {between(a.place.trolley.travel_m, b.place.trolley.travel_m),
+                         between(a.place.trolley.lift_m, b.place.trolley.lift_m)}};
 }
 
 }  // namespace canopeer::ros

@@ -10,7 +10,7 @@
 namespace canopeer::ros {
 
 /// Where the simulated robot is.
-struct RobotPlace {
+struct SimulatedPlace {
   Configuration q;
   TrolleyState trolley;
 };
@@ -19,14 +19,14 @@ struct RobotPlace {
 class RobotHistory {
  public:
   /// Times rise.
-  void add(Stamp time, const RobotPlace& place);
+  void add(Stamp time, const SimulatedPlace& place);
   /// Where it was at `time`; none: that is not known yet, or no more.
-  [[nodiscard]] std::optional<RobotPlace> at(Stamp time) const;
+  [[nodiscard]] std::optional<SimulatedPlace> at(Stamp time) const;
 
  private:
   struct Entry {
     Stamp time;
-    RobotPlace place;
+    SimulatedPlace place;
   };
   mutable std::mutex mutex_;
   std::deque<Entry> entries_;
