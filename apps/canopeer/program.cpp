@@ -41,6 +41,17 @@ void add_run(CLI::App& app, RunArguments& arguments, const RunRegistries& regist
                       "What computing costs: default, reference, free, this-machine, or a file");
   command->add_flag("--realtime", arguments.realtime,
                     "On the wall clock, with worker threads, in place of simulated time");
+  command->add_flag("--view", arguments.view.view,
+                    "Serve a page that shows the run; its address is printed");
+  command->add_option("--view-port", arguments.view.port, "Port of the page (0: any)");
+  command->add_option(
+      "--view-bind", arguments.view.address,
+      "Address of the page; 0.0.0.0: other machines with the printed link may look");
+  command->add_flag("!--no-replay", arguments.view.replay, "Leave out what `canopeer view` needs");
+  command->add_flag("--dry-run", arguments.dry_run,
+                    "Site ros2: plan and tell, and never move (ros2.dry_run)");
+  command->add_flag("--confirm", arguments.confirm,
+                    "Site ros2: ask before every motion (ros2.confirm)");
   command->add_option("--out", arguments.out, "Directory for the results");
   command->add_flag("--quiet", arguments.quiet, "Print errors only");
   command->add_flag("--profile", arguments.profile, "Print where the wall time went");
@@ -101,6 +112,17 @@ void add_doctor(CLI::App& app, DoctorArguments& a) {
       "doctor", "Say what this machine and this program have, and try the smoke mission");
   command->add_flag("--quick", a.quick, "No self-test");
   command->callback([&a] { doctor(a); });
+}
+
+void add_view(CLI::App& app, ViewArguments& arguments) {
+  CLI::App* command = app.add_subcommand("view", "Show a run again in a browser, a killed one too");
+  command->add_option("run", arguments.run, "Directory of the run")->required();
+  command->add_option("--view-port", arguments.port, "Port of the page (0: any)");
+  command->add_option(
+      "--view-bind", arguments.address,
+      "Address of the page; 0.0.0.0: other machines with the printed link may look");
+  command->add_flag("--quiet", arguments.quiet, "Print the address only");
+  command->callback([&arguments] { view(arguments); });
 }
 
 void add_report(CLI::App& app, std::string& directory) {
@@ -298,6 +320,7 @@ int parse_and_run(int argc, char** argv, const RunRegistries& registries) {
   app.require_subcommand(1);
   RunArguments run_arguments;
   std::string report_directory;
+  ViewArguments view_arguments;
   SceneArguments scene_arguments;
   ImportArguments import_arguments;
   run_arguments.mission.registries = &registries;
@@ -310,6 +333,7 @@ int parse_and_run(int argc, char** argv, const RunRegistries& registries) {
   add_bench(app, bench_arguments);
   add_calibrate(app, calibrate_arguments);
   add_report(app, report_directory);
+  add_view(app, view_arguments);
   add_scene(app, scene_arguments, import_arguments);
   FruitFitArguments fruit_arguments;
   add_fruit(app, fruit_arguments);

@@ -158,7 +158,8 @@ TEST_F(Action, ACancelMayBeRefused) {
 TEST_F(Action, OthersMayCancelAllGoals) {
   using action_msgs::CancelGoal;
   ASSERT_TRUE(must(client_->send(goal_for("elbow"), heard_.events(), 10s)));
-  auto other = must(Client<CancelGoal>::make(*here_, std::string(kAction) + "/_action/cancel_goal"));
+  auto other =
+      must(Client<CancelGoal>::make(*here_, std::string(kAction) + "/_action/cancel_goal"));
   ASSERT_TRUE(eventually([&] { return other.ready(); }));
   const auto unknown = must(other.call({{new_goal_id(), {}}}, 10s));
   EXPECT_EQ(unknown.return_code, CancelGoal::Response::ERROR_UNKNOWN_GOAL_ID);
@@ -171,8 +172,8 @@ TEST_F(Action, OthersMayCancelAllGoals) {
 TEST_F(Action, AResultCanBeAskedForAfterTheEnd) {
   ASSERT_TRUE(must(client_->send(goal_for("elbow"), {}, 10s)));
   controller_.server().finish(controller_.goal(), GoalState::aborted, {-4, "path"});
-  auto results = must(Client<GetResult<Follow>>::make(
-      *here_, std::string(kAction) + "/_action/get_result"));
+  auto results =
+      must(Client<GetResult<Follow>>::make(*here_, std::string(kAction) + "/_action/get_result"));
   ASSERT_TRUE(eventually([&] { return results.ready(); }));
   for (int i = 0; i < 2; ++i) {
     const auto late = must(results.call({controller_.goal()}, 10s));

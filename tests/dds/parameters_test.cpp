@@ -74,8 +74,8 @@ TEST(ParameterTable, SetsAllOrNone) {
   Settings settings;
   const ParameterTable table(settings.accesses());
   settings.dry_run_ = true;
-  const auto result = table.set_all({{"arm.speed_scale", parameter_value(0.7)},
-                                     {"arm.dry_run", parameter_value(false)}});
+  const auto result = table.set_all(
+      {{"arm.speed_scale", parameter_value(0.7)}, {"arm.dry_run", parameter_value(false)}});
   EXPECT_FALSE(result.successful);
   EXPECT_EQ(result.reason, "it sticks");
   EXPECT_EQ(settings.speed_, 0.5);
@@ -119,7 +119,9 @@ TEST(Parameters, AreListedReadAndWrittenByServices) {
   EXPECT_FALSE(speed.read_only);
 
   const auto results = must(set.call({{{"arm.speed_scale", parameter_value(0.3)},
-                                       {"arm.speed_scale", parameter_value(3.0)}}}, 10s)).results;
+                                       {"arm.speed_scale", parameter_value(3.0)}}},
+                                     10s))
+                           .results;
   ASSERT_EQ(results.size(), 2U);
   EXPECT_TRUE(results[0].successful);
   EXPECT_FALSE(results[1].successful);

@@ -13,11 +13,28 @@ std::string error_of(const std::vector<std::string>& arguments) {
 }
 
 TEST(RosArguments, AreTakenOutOfTheCommandLine) {
-  const auto parsed = must(RosArguments::parse(
-      {"run", "smoke", "--ros-args", "-r", "joint_states:=/ur/joint_states", "-r", "__ns:=/row_1",
-       "--remap", "__node:=planner", "-p", "rate:=5.0", "--params-file", "a.yaml", "--log-level",
-       "WARN", "--", "--site", "ros2", "--ros-args", "-p", "planner:rate:=6.0",
-       "--disable-stdout-logs"}));
+  const auto parsed = must(RosArguments::parse({"run",
+                                                "smoke",
+                                                "--ros-args",
+                                                "-r",
+                                                "joint_states:=/ur/joint_states",
+                                                "-r",
+                                                "__ns:=/row_1",
+                                                "--remap",
+                                                "__node:=planner",
+                                                "-p",
+                                                "rate:=5.0",
+                                                "--params-file",
+                                                "a.yaml",
+                                                "--log-level",
+                                                "WARN",
+                                                "--",
+                                                "--site",
+                                                "ros2",
+                                                "--ros-args",
+                                                "-p",
+                                                "planner:rate:=6.0",
+                                                "--disable-stdout-logs"}));
   EXPECT_EQ(parsed.rest, (std::vector<std::string>{"run", "smoke", "--site", "ros2"}));
   EXPECT_EQ(parsed.node, "planner");
   EXPECT_EQ(parsed.ns, "/row_1");
@@ -28,9 +45,9 @@ TEST(RosArguments, AreTakenOutOfTheCommandLine) {
 }
 
 TEST(RosArguments, AreAppliedToANode) {
-  const auto parsed = must(RosArguments::parse({"--ros-args", "-r", "__node:=planner", "-r",
-                                                "planner:a:=/b", "-r", "other:a:=/c", "-r",
-                                                "rostopic://~/d:=e"}));
+  const auto parsed =
+      must(RosArguments::parse({"--ros-args", "-r", "__node:=planner", "-r", "planner:a:=/b", "-r",
+                                "other:a:=/c", "-r", "rostopic://~/d:=e"}));
   NodeOptions options;
   options.remaps = {{"a", "/before"}};
   parsed.apply(options);

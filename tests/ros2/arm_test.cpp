@@ -11,10 +11,10 @@
 namespace canopeer::ros {
 namespace {
 
+using test::test_robot;
 using testing_support::ControllerFaults;
 using testing_support::eventually;
 using testing_support::TestController;
-using test::test_robot;
 
 constexpr const char* kAction = "/arm/follow_joint_trajectory";
 
@@ -220,8 +220,8 @@ TEST_F(Ros2ArmTest, AnArmThatIsHeldIsStopped) {
 TEST_F(Ros2ArmTest, ASafetyModeStopsTheMotionAndTheNext) {
   Ros2Settings settings = quick_settings();
   settings.arm.safety_mode = "/io_and_status_controller/safety_mode";
-  auto safety = must(robot_node_->advertise<ur_dashboard_msgs::SafetyMode>(
-      settings.arm.safety_mode, kLatchedQos));
+  auto safety = must(
+      robot_node_->advertise<ur_dashboard_msgs::SafetyMode>(settings.arm.safety_mode, kLatchedQos));
   start(settings);
   safety.publish({ur_dashboard_msgs::SafetyMode::NORMAL});
   controller_->faults([](ControllerFaults& f) { f.speed = 0.1; });
@@ -254,6 +254,14 @@ TEST_F(Ros2ArmTest, APersonWhoStopsTheRunCancelsTheMotionButNotTheWayHome) {
   EXPECT_EQ(must(arm_->finish()).end, MotionEnd::cancelled);
   controller_->faults([](ControllerFaults& f) { f.speed = 1.0; });
   EXPECT_EQ(move({{arm_->configuration(), home_}}).end, MotionEnd::arrived);
+}
+
+TEST_F(Ros2ArmTest, AMotionUnderWayEndsWithItsArm) {
+  start();
+  controller_->faults([](ControllerFaults& f) { f.speed = 0.05; });
+  ASSERT_TRUE(arm_->start(a_motion()));
+  arm_.reset();
+  EXPECT_TRUE(eventually([&] { return controller_->cancels() == 1; }));
 }
 
 TEST_F(Ros2ArmTest, SilentJointStatesWhileMovingAreALostArm) {

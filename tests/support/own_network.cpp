@@ -28,8 +28,7 @@ bool unshare_network() {
   if (unshare(CLONE_NEWNET) == 0) return true;
   const std::string user = std::to_string(getuid());
   const std::string group = std::to_string(getgid());
-  return unshare(CLONE_NEWUSER | CLONE_NEWNET) == 0 &&
-         write_file("/proc/self/setgroups", "deny") &&
+  return unshare(CLONE_NEWUSER | CLONE_NEWNET) == 0 && write_file("/proc/self/setgroups", "deny") &&
          write_file("/proc/self/uid_map", "0 " + user + " 1") &&
          write_file("/proc/self/gid_map", "0 " + group + " 1");
 }

@@ -107,7 +107,8 @@ class ActionServer {
   [[nodiscard]] Expected<void> open(Node& node, const std::string& action);
   void take_goal(typename SendGoal<A>::Request&& request,
                  const typename Server<SendGoal<A>>::Reply& reply);
-  void take_cancel(const action_msgs::GoalInfo& request, const typename Server<Cancel>::Reply& reply);
+  void take_cancel(const action_msgs::GoalInfo& request,
+                   const typename Server<Cancel>::Reply& reply);
 
   const Handlers handlers_;
   GoalLedger ledger_;

@@ -124,23 +124,21 @@ Expected<void> ActionServer<A>::open(Node& node, const std::string& base) {
       [this, &node](Payload&& payload, RawReply reply) {
         const auto request = from_cdr<typename Results::Request>(payload);
         if (!request) return node.count_malformed();
-        const auto answer = ledger_.answer_or_wait(request->goal_id, reply,
-                                                   to_cdr(typename Results::Response{}));
+        const auto answer =
+            ledger_.answer_or_wait(request->goal_id, reply, to_cdr(typename Results::Response{}));
         if (answer) reply(*answer);
       });
   if (!results) return tl::unexpected(results.error());
   results_ = std::move(*results);
-  auto cancels = Server<Cancel>::make(node, base + "cancel_goal",
-                                      [this](Cancel::Request&& request, auto reply) {
-                                        take_cancel(request.goal_info, reply);
-                                      });
+  auto cancels = Server<Cancel>::make(
+      node, base + "cancel_goal",
+      [this](Cancel::Request&& request, auto reply) { take_cancel(request.goal_info, reply); });
   if (!cancels) return tl::unexpected(cancels.error());
   cancels_ = std::make_unique<Server<Cancel>>(std::move(*cancels));
-  auto goals = Server<SendGoal<A>>::make(node, base + "send_goal",
-                                         [this](typename SendGoal<A>::Request&& request,
-                                                auto reply) {
-                                           take_goal(std::move(request), reply);
-                                         });
+  auto goals = Server<SendGoal<A>>::make(
+      node, base + "send_goal", [this](typename SendGoal<A>::Request&& request, auto reply) {
+        take_goal(std::move(request), reply);
+      });
   if (!goals) return tl::unexpected(goals.error());
   goals_ = std::make_unique<Server<SendGoal<A>>>(std::move(*goals));
   return {};
@@ -150,8 +148,7 @@ template <class A>
 void ActionServer<A>::take_goal(typename SendGoal<A>::Request&& request,
                                 const typename Server<SendGoal<A>>::Reply& reply) {
   const auto stamp = system_stamp();
-  if (!handlers_.accept(request.goal_id, request.goal) ||
-      !ledger_.begin(request.goal_id, stamp)) {
+  if (!handlers_.accept(request.goal_id, request.goal) || !ledger_.begin(request.goal_id, stamp)) {
     return reply({false, stamp});
   }
   reply({true, stamp});
@@ -181,8 +178,7 @@ void ActionServer<A>::feedback(const UUID& goal, const typename A::Feedback& fee
 }
 
 template <class A>
-void ActionServer<A>::finish(const UUID& goal, GoalState state,
-                             const typename A::Result& result) {
+void ActionServer<A>::finish(const UUID& goal, GoalState state, const typename A::Result& result) {
   const Payload answer =
       to_cdr(typename GetResult<A>::Response{static_cast<std::int8_t>(state), result});
   const auto waiting = ledger_.end(goal, state, answer);

@@ -25,7 +25,8 @@ bool not_after(const builtin_interfaces::Time& a, const builtin_interfaces::Time
 bool means(const GoalInfo& request, const GoalInfo& goal) {
   const bool timed = !is_zero(request.stamp);
   if (is_zero(request.goal_id) && !timed) return true;
-  return goal.goal_id.uuid == request.goal_id.uuid || (timed && not_after(goal.stamp, request.stamp));
+  return goal.goal_id.uuid == request.goal_id.uuid ||
+         (timed && not_after(goal.stamp, request.stamp));
 }
 
 }  // namespace

@@ -15,7 +15,13 @@ using unique_identifier_msgs::UUID;
 
 /// action_msgs/msg/GoalStatus.
 enum class GoalState : std::int8_t {
-  unknown, accepted, executing, canceling, succeeded, canceled, aborted
+  unknown,
+  accepted,
+  executing,
+  canceling,
+  succeeded,
+  canceled,
+  aborted
 };
 [[nodiscard]] bool has_ended(GoalState state);
 

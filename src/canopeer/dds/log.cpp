@@ -17,8 +17,7 @@ std::string logger_name(std::string full) {
 
 }  // namespace
 
-Expected<Log> Log::make(Node& node, std::function<builtin_interfaces::Time()> now,
-                        LogLevel least) {
+Expected<Log> Log::make(Node& node, std::function<builtin_interfaces::Time()> now, LogLevel least) {
   auto out = node.advertise<rcl_interfaces::Log>("/rosout", kRosoutQos);
   if (!out) return tl::unexpected(out.error());
   Log log;

@@ -17,8 +17,7 @@ enum class LogLevel : std::uint8_t { debug = 10, info = 20, warn = 30, error = 4
 class Log {
  public:
   /// `now` stamps the messages. What is less than `least` is not said.
-  [[nodiscard]] static Expected<Log> make(Node& node,
-                                          std::function<builtin_interfaces::Time()> now,
+  [[nodiscard]] static Expected<Log> make(Node& node, std::function<builtin_interfaces::Time()> now,
                                           LogLevel least = LogLevel::info);
   void say(LogLevel level, const std::string& text) const;
 

@@ -19,16 +19,13 @@ bool is_limited(const ParameterAccess& parameter) {
 }
 
 std::string type_name(std::uint8_t type) {
-  static constexpr const char* kNames[] = {"nothing",      "a bool",       "an integer",
-                                           "a double",     "a string",     "bytes",
-                                           "bools",        "integers",     "doubles",
-                                           "strings"};
+  static constexpr const char* kNames[] = {"nothing",  "a bool", "an integer", "a double",
+                                           "a string", "bytes",  "bools",      "integers",
+                                           "doubles",  "strings"};
   return type < std::size(kNames) ? kNames[type] : "an unknown type";
 }
 
-std::int64_t dots_in(const std::string& name) {
-  return std::count(name.begin(), name.end(), '.');
-}
+std::int64_t dots_in(const std::string& name) { return std::count(name.begin(), name.end(), '.'); }
 
 bool is_listed(const std::string& name, const ListParameters::Request& request) {
   const auto within = [&](const std::string& rest) {

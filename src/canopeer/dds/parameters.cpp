@@ -79,9 +79,9 @@ class NodeParameters final : public Parameters {
   template <class S, class Answer>
   void serve(const std::string& name, Expected<void>& opened, Answer answer) {
     if (!opened) return;
-    auto server = Server<S>::make(
-        node_, name,
-        [answer](typename S::Request&& request, auto reply) { reply(answer(request)); });
+    auto server = Server<S>::make(node_, name, [answer](typename S::Request&& request, auto reply) {
+      reply(answer(request));
+    });
     if (!server) {
       opened = tl::unexpected(server.error());
     } else {

@@ -11,9 +11,9 @@
 // Fast DDS 2 and 3 say the same things by other names; CMake tells which one is there.
 #if CANOPEER_FAST_DDS >= 3
 #include <fastdds/LibrarySettings.hpp>
+#include <fastdds/rtps/common/WriteParams.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.hpp>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.hpp>
-#include <fastdds/rtps/common/WriteParams.hpp>
 #include <fastdds/utils/IPLocator.hpp>
 #else
 #include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
@@ -247,7 +247,8 @@ class FastWriter final : public Writer, fast::DataWriterListener {
 #else
     to.reliable_writer_qos().times.heartbeatPeriod = {0, 100'000'000};
 #endif
-    writer_ = publisher_.create_datawriter(&topic, to, this, fast::StatusMask::publication_matched());
+    writer_ =
+        publisher_.create_datawriter(&topic, to, this, fast::StatusMask::publication_matched());
     return writer_ != nullptr;
   }
   [[nodiscard]] Guid guid() const override { return to_guid(writer_->guid()); }
@@ -300,9 +301,9 @@ class FastReader final : public Reader, fast::DataReaderListener {
     // Only so does the library refuse what is longer than the type's size before it makes room.
     // The room it then makes is that size, but memory only where octets arrive.
     to.endpoint().history_memory_policy = rtps::PREALLOCATED_MEMORY_MODE;
-    reader_ = subscriber_.create_datareader(
-        &topic, to, this,
-        fast::StatusMask::data_available() << fast::StatusMask::subscription_matched());
+    reader_ = subscriber_.create_datareader(&topic, to, this,
+                                            fast::StatusMask::data_available()
+                                                << fast::StatusMask::subscription_matched());
     return reader_ != nullptr;
   }
   [[nodiscard]] Guid guid() const override { return to_guid(reader_->guid()); }
@@ -424,9 +425,10 @@ class FastParticipant final : public Participant, fast::DomainParticipantListene
     if (!made->open(**to, qos, user_data)) return fail("topic " + topic + ": no writer was made");
     return made;
   }
-  [[nodiscard]] Expected<std::unique_ptr<Reader>> reader(
-      const std::string& topic, const std::string& type, const Qos& qos,
-      std::function<void(Sample&&)> on_sample, const std::string& user_data) override {
+  [[nodiscard]] Expected<std::unique_ptr<Reader>> reader(const std::string& topic,
+                                                         const std::string& type, const Qos& qos,
+                                                         std::function<void(Sample&&)> on_sample,
+                                                         const std::string& user_data) override {
     auto from = topic_of(topic, type);
     if (!from) return tl::unexpected(from.error());
     auto made = std::make_unique<FastReader>(*subscriber_, std::move(on_sample));
@@ -436,6 +438,9 @@ class FastParticipant final : public Participant, fast::DomainParticipantListene
     return made;
   }
   [[nodiscard]] std::vector<Peer> peers() const override { return known_.peers(); }
+  [[nodiscard]] std::optional<Peer> peer(const ParticipantId& id) const override {
+    return known_.peer(id);
+  }
   [[nodiscard]] std::vector<Endpoint> endpoints() const override { return known_.endpoints(); }
   [[nodiscard]] std::optional<Endpoint> endpoint(const Guid& guid) const override {
     return known_.endpoint(guid);
@@ -469,8 +474,11 @@ class FastParticipant final : public Participant, fast::DomainParticipantListene
     if (status == Status::REMOVED_PARTICIPANT || status == Status::DROPPED_PARTICIPANT) {
       known_.remove_peer(peer);
     } else if (status != Status::IGNORED_PARTICIPANT) {
-      known_.put({peer, {info.vendor_id[0], info.vendor_id[1]}, info.participant_name.to_string(),
-                  text_of(info.user_data)});
+      known_.put({peer,
+                  {info.vendor_id[0], info.vendor_id[1]},
+                  info.participant_name.to_string(),
+                  text_of(info.user_data),
+                  std::chrono::steady_clock::now()});
     }
   }
   void on_data_reader_discovery(fast::DomainParticipant*, rtps::ReaderDiscoveryStatus status,
@@ -497,8 +505,11 @@ class FastParticipant final : public Participant, fast::DomainParticipantListene
         discovery.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT) {
       known_.remove_peer(peer);
     } else {
-      known_.put({peer, {info.m_VendorId[0], info.m_VendorId[1]}, info.m_participantName.to_string(),
-                  text_of(info.m_userData)});
+      known_.put({peer,
+                  {info.m_VendorId[0], info.m_VendorId[1]},
+                  info.m_participantName.to_string(),
+                  text_of(info.m_userData),
+                  std::chrono::steady_clock::now()});
     }
   }
   void on_subscriber_discovery(fast::DomainParticipant*,

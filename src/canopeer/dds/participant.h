@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -31,7 +32,7 @@ inline constexpr Qos kTfQos{true, false, 100};
 
 using ParticipantId = std::array<std::uint8_t, 12>;  ///< GUID prefix
 using VendorId = std::array<std::uint8_t, 2>;
-using Guid = std::array<std::uint8_t, 16>;           ///< prefix, then entity
+using Guid = std::array<std::uint8_t, 16>;                    ///< prefix, then entity
 inline constexpr const char* kUserData = "source=canopeer;";  ///< some peers warn where none is
 [[nodiscard]] ParticipantId participant_of(const Guid& guid);
 
@@ -44,6 +45,7 @@ struct Peer {
   VendorId vendor{};
   std::string name;
   std::string user_data;  ///< ROS puts "enclave=/;" there, Iron and later also "typehash"
+  std::chrono::steady_clock::time_point since;  ///< when it was first heard of
   [[nodiscard]] Rmw rmw() const;
   /// "eProsima Fast DDS", "Eclipse Cyclone DDS", or the two octets.
   [[nodiscard]] std::string vendor_name() const;
@@ -121,6 +123,7 @@ class Participant {
       const std::string& topic, const std::string& type, const Qos& qos,
       std::function<void(Sample&&)> on_sample, const std::string& user_data = kUserData) = 0;
   [[nodiscard]] virtual std::vector<Peer> peers() const = 0;
+  [[nodiscard]] virtual std::optional<Peer> peer(const ParticipantId& id) const = 0;
   [[nodiscard]] virtual std::vector<Endpoint> endpoints() const = 0;
   [[nodiscard]] virtual std::optional<Endpoint> endpoint(const Guid& guid) const = 0;
   [[nodiscard]] virtual Rmw rmw_of(const ParticipantId& peer) const = 0;

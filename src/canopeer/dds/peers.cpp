@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 namespace canopeer::ros {
 namespace {
@@ -53,9 +54,12 @@ Rmw Peer::rmw() const {
 
 std::string Peer::vendor_name() const {
   switch (rmw()) {
-    case Rmw::fastrtps: return "eProsima Fast DDS";
-    case Rmw::cyclonedds: return "Eclipse Cyclone DDS";
-    case Rmw::unknown: break;
+    case Rmw::fastrtps:
+      return "eProsima Fast DDS";
+    case Rmw::cyclonedds:
+      return "Eclipse Cyclone DDS";
+    case Rmw::unknown:
+      break;
   }
   char octets[8] = {};
   std::snprintf(octets, sizeof(octets), "%02x.%02x", vendor[0], vendor[1]);
@@ -104,9 +108,11 @@ Expected<void> check_here(const ParticipantOptions& options) {
   return {};
 }
 
-void KnownPeers::put(const Peer& peer) {
+void KnownPeers::put(Peer peer) {
   const std::lock_guard lock(mutex_);
-  peers_[peer.id] = peer;
+  const auto known = peers_.find(peer.id);
+  if (known != peers_.end()) peer.since = known->second.since;
+  peers_[peer.id] = std::move(peer);
 }
 
 void KnownPeers::put(const Endpoint& endpoint) {
@@ -137,6 +143,13 @@ std::vector<Endpoint> KnownPeers::endpoints() const {
   std::vector<Endpoint> all;
   for (const auto& [guid, endpoint] : endpoints_) all.push_back(endpoint);
   return all;
+}
+
+std::optional<Peer> KnownPeers::peer(const ParticipantId& id) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = peers_.find(id);
+  if (found == peers_.end()) return std::nullopt;
+  return found->second;
 }
 
 std::optional<Endpoint> KnownPeers::endpoint(const Guid& guid) const {

@@ -15,12 +15,14 @@ namespace canopeer::ros {
 /// What discovery told so far. Thread-safe; no lock is held while anything else is called.
 class KnownPeers {
  public:
-  void put(const Peer& peer);
+  /// Known ones keep their `since`.
+  void put(Peer peer);
   void put(const Endpoint& endpoint);
   /// With all its endpoints.
   void remove_peer(const ParticipantId& peer);
   void remove_endpoint(const Guid& endpoint);
   [[nodiscard]] std::vector<Peer> peers() const;
+  [[nodiscard]] std::optional<Peer> peer(const ParticipantId& id) const;
   [[nodiscard]] std::vector<Endpoint> endpoints() const;
   [[nodiscard]] std::optional<Endpoint> endpoint(const Guid& guid) const;
   [[nodiscard]] Rmw rmw_of(const ParticipantId& peer) const;

@@ -130,7 +130,8 @@ Expected<RosArguments> RosArguments::parse(const std::vector<std::string>& argum
     if (option == "--ros-args" || has_no_effect(option)) continue;
     const Take take = taker_of(option);
     if (take == nullptr && !has_no_effect_but_a_value(option)) {
-      return fail("--ros-args: '" + option + "' is unknown; known are -r, -p, --params-file, "
+      return fail("--ros-args: '" + option +
+                  "' is unknown; known are -r, -p, --params-file, "
                   "--log-level and '--' at the end");
     }
     if (++i == arguments.size()) return fail("--ros-args: " + option + " needs a value");

@@ -60,9 +60,8 @@ class Client {
   [[nodiscard]] Expected<typename S::Response> call(const typename S::Request& request,
                                                     std::chrono::milliseconds patience);
   /// Asks; `on_response` comes from a thread of the DDS library, or never.
-  [[nodiscard]] Expected<std::int64_t> ask(
-      const typename S::Request& request,
-      std::function<void(typename S::Response&&)> on_response);
+  [[nodiscard]] Expected<std::int64_t> ask(const typename S::Request& request,
+                                           std::function<void(typename S::Response&&)> on_response);
   void forget(std::int64_t request) { raw_->forget(request); }
 
  private:

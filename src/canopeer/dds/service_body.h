@@ -64,29 +64,29 @@ Expected<typename S::Response> Client<S>::call(const typename S::Request& reques
 template <class S>
 Expected<std::int64_t> Client<S>::ask(const typename S::Request& request,
                                       std::function<void(typename S::Response&&)> on_response) {
-  return raw_->ask(to_cdr(request), [node = node_, on_response = std::move(on_response)](
-                                        Payload&& payload) {
-    auto response = from_cdr<typename S::Response>(payload);
-    if (response) {
-      on_response(std::move(*response));
-    } else {
-      node->count_malformed();
-    }
-  });
+  return raw_->ask(to_cdr(request),
+                   [node = node_, on_response = std::move(on_response)](Payload&& payload) {
+                     auto response = from_cdr<typename S::Response>(payload);
+                     if (response) {
+                       on_response(std::move(*response));
+                     } else {
+                       node->count_malformed();
+                     }
+                   });
 }
 
 template <class S>
 Expected<Server<S>> Server<S>::make(Node& node, const std::string& service, Handler handler) {
-  auto raw = make_raw_server(
-      node, service, dds_request_type<S>(), dds_response_type<S>(),
-      [&node, handler = std::move(handler)](Payload&& payload, RawReply reply) {
-        auto request = from_cdr<typename S::Request>(payload);
-        if (!request) return node.count_malformed();
-        handler(std::move(*request), [reply = std::move(reply)](
-                                         const typename S::Response& response) {
-          reply(to_cdr(response));
-        });
-      });
+  auto raw =
+      make_raw_server(node, service, dds_request_type<S>(), dds_response_type<S>(),
+                      [&node, handler = std::move(handler)](Payload&& payload, RawReply reply) {
+                        auto request = from_cdr<typename S::Request>(payload);
+                        if (!request) return node.count_malformed();
+                        handler(std::move(*request),
+                                [reply = std::move(reply)](const typename S::Response& response) {
+                                  reply(to_cdr(response));
+                                });
+                      });
   if (!raw) return tl::unexpected(raw.error());
   return Server(std::move(*raw));
 }

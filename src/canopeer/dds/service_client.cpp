@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <chrono>
 #include <map>
 #include <mutex>
 #include <random>
@@ -13,6 +15,10 @@ namespace {
 /// Numbers of requests in the dialect of rmw_cyclonedds begin here; the others are numbers of
 /// samples and never get there.
 constexpr std::int64_t kFirstOwnNumber = std::int64_t{1} << 40;
+
+/// Cyclone DDS drops requests of a writer that it has not discovered yet, and acknowledges them.
+/// It discovers after the next heartbeat of discovery, which Fast DDS sends once a second.
+constexpr std::chrono::milliseconds kDiscoveredBack{1500};
 
 std::set<ParticipantId> participants_in(const std::vector<Guid>& endpoints) {
   std::set<ParticipantId> ids;
@@ -34,8 +40,9 @@ class DdsClient final : public RawClient {
     auto writer = node_.dds_writer("rq" + *base + "Request", request_type, kServiceQos, mark);
     if (!writer) return tl::unexpected(writer.error());
     requests_ = std::move(*writer);
-    auto reader = node_.dds_reader("rr" + *base + "Reply", reply_type, kServiceQos,
-                                   [this](Sample&& reply) { take(std::move(reply)); }, mark);
+    auto reader = node_.dds_reader(
+        "rr" + *base + "Reply", reply_type, kServiceQos,
+        [this](Sample&& reply) { take(std::move(reply)); }, mark);
     if (!reader) return tl::unexpected(reader.error());
     const std::lock_guard lock(mutex_);  // `take` may run already
     replies_ = std::move(*reader);
@@ -77,8 +84,15 @@ class DdsClient final : public RawClient {
   [[nodiscard]] std::set<ParticipantId> servers() const {
     std::set<ParticipantId> both = participants_in(requests_->matched());
     const std::set<ParticipantId> answering = participants_in(replies_->matched());
-    std::erase_if(both, [&](const ParticipantId& id) { return answering.count(id) == 0; });
+    std::erase_if(both, [&](const ParticipantId& id) {
+      return answering.count(id) == 0 || !has_discovered_us(id);
+    });
     return both;
+  }
+  [[nodiscard]] bool has_discovered_us(const ParticipantId& id) const {
+    const auto peer = node_.participant().peer(id);
+    if (!peer || peer->rmw() != Rmw::cyclonedds) return true;
+    return std::chrono::steady_clock::now() > std::max(peer->since, made_) + kDiscoveredBack;
   }
   [[nodiscard]] Expected<Rmw> spoken() const {
     std::set<Rmw> dialects;
@@ -113,9 +127,9 @@ class DdsClient final : public RawClient {
   std::function<void(Payload&&)> claim(std::int64_t number,
                                        const std::optional<SampleIdentity>& related) {
     const std::lock_guard lock(mutex_);
-    const bool mine = related ? related->writer == reply_reader_ ||
-                                    related->writer == requests_->guid()
-                              : number >= kFirstOwnNumber;
+    const bool mine = related
+                          ? related->writer == reply_reader_ || related->writer == requests_->guid()
+                          : number >= kFirstOwnNumber;
     const auto found = waiting_.find(number);
     if (!mine || found == waiting_.end()) return {};
     return std::move(waiting_.extract(found).mapped());
@@ -123,6 +137,7 @@ class DdsClient final : public RawClient {
 
   Node& node_;
   const std::string service_;
+  const std::chrono::steady_clock::time_point made_ = std::chrono::steady_clock::now();
   std::uint64_t own_ = 0;  ///< tells this client's requests from those of others
   std::mutex mutex_;       ///< of what follows
   std::map<std::int64_t, std::function<void(Payload&&)>> waiting_;

@@ -152,8 +152,9 @@ class DdsServer final : public RawServer {
     const std::string mark = new_pair_mark("serviceid");
     const auto opened = replies_->open("rr" + *base + "Reply", reply_type, mark);
     if (!opened) return opened;
-    auto reader = node_.dds_reader("rq" + *base + "Request", request_type, kServiceQos,
-                                   [this](Sample&& request) { take(std::move(request)); }, mark);
+    auto reader = node_.dds_reader(
+        "rq" + *base + "Request", request_type, kServiceQos,
+        [this](Sample&& request) { take(std::move(request)); }, mark);
     if (!reader) return tl::unexpected(reader.error());
     requests_ = std::move(*reader);
     return {};

@@ -108,6 +108,22 @@ class RobotModel {
   /// Whether moving `link_b` always takes `link_a` along.
   [[nodiscard]] bool carried_by(int link_a, int link_b) const;
 
+  /// How a link sits on its parent: T_parent_link = T_parent_joint · motion(position about or along
+  /// axis), position = multiplier · (what drives it) + offset.
+  struct Mount {
+    enum class Driver { none, arm, travel, lift };
+    int parent = -1;  ///< index of a link; −1: the root
+    Pose T_parent_joint = Pose::Identity();
+    JointType type = JointType::kFixed;  ///< kFixed, kRevolute or kPrismatic
+    Vec3 axis = Vec3::UnitZ();           ///< joint frame
+    Driver driver = Driver::none;
+    int arm_joint = -1;  ///< which, when an arm joint drives it
+    double multiplier = 1.0;
+    double offset = 0.0;
+  };
+  /// For people who draw the robot or do its kinematics elsewhere.
+  [[nodiscard]] Mount mount(int link) const;
+
   /// Links in an order in which parents come before children; link indices below refer to it.
   [[nodiscard]] const std::vector<Link>& links() const { return links_; }
   /// Index of a link; −1 when there is none of that name.

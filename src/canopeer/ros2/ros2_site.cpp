@@ -9,6 +9,7 @@
 #include "canopeer/ros2/node_of_settings.h"
 #include "canopeer/ros2/out/ros2_output.h"
 #include "canopeer/ros2/presence/presence.h"
+#include "canopeer/ros2/time/figure.h"
 #include "canopeer/ros2/trolley/ros2_trolley.h"
 
 namespace canopeer {
@@ -155,7 +156,9 @@ PersonHooks Ros2Site::person() {
   PersonHooks person;
   person.stop_asked = [this] { return stop_asked(); };
   person.may_move = [this](const std::string& motion) {
-    return output_->may_move(motion, [this] { return stop_asked(); });
+    // Who has stopped the run may still want the arm to go home.
+    return output_->may_move(motion,
+                             [this, before = stop_asked()] { return !before && stop_asked(); });
   };
   person.say = [this](const std::string& text) { tell(text); };
   return person;
@@ -234,12 +237,15 @@ Expected<std::unique_ptr<Site>> make_ros2_site(const SiteRequest& request) {
 }
 
 void add_ros2_site(SiteRegistry& sites) {
+  if (!sites.one_line("ros2").empty()) return;
   SiteManners manners;
   manners.realtime = true;
-  manners.arm_speed = [](const MissionFile& file) { return ros::settings_of(file).arm.speed_scale; };
+  manners.arm_speed = [](const MissionFile& file) {
+    return ros::settings_of(file).arm.speed_scale;
+  };
   const auto added = sites.add_with_manners("ros2", "a robot on ROS 2, as the mission's ros2 says",
                                             make_ros2_site, std::move(manners));
-  CANOPEER_CHECK(added.has_value(), "nobody else's site is called ros2");
+  CANOPEER_CHECK(added.has_value(), "its name is good and free");
 }
 
 }  // namespace canopeer

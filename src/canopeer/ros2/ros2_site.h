@@ -6,7 +6,8 @@
 
 namespace canopeer {
 
-/// Adds the site `ros2`: a robot spoken to by ROS 2, as the mission's settings `ros2` say.
+/// Adds the site `ros2`: a robot spoken to by ROS 2, as the mission's settings `ros2` say. Nothing
+/// happens when there is one of that name.
 void add_ros2_site(SiteRegistry& sites);
 
 /// Joins the network and waits, as long as settings say, for all that the mission needs: joint

@@ -124,24 +124,27 @@ double Ros2Arm::hold_back(MotionEnd end, std::string why, double duration_s) {
   return duration_s;
 }
 
-Expected<double> Ros2Arm::start(const JointPath& path) {
-  held_back_.reset();
-  stop_was_asked_ = parts_.person.stop();
+/// False: it is held back. The error: where the arm is is not known.
+Expected<bool> Ros2Arm::may_begin(const JointPath& path) {
   if (auto ok = fresh(); !ok) return tl::unexpected(ok.error());
-  if (auto refused = refusal(path)) {
-    held_back_ = std::move(refused);
-    return duration_s_ = 0.0;
-  }
+  held_back_ = refusal(path);
+  duration_s_ = 0.0;
+  return !held_back_;
+}
+
+Expected<double> Ros2Arm::start(const JointPath& path) {
+  stop_was_asked_ = parts_.person.stop();
+  auto may = may_begin(path);
+  if (!may) return tl::unexpected(may.error());
+  if (!*may) return 0.0;
   const PathMotion motion(path, limits());
   if (dry_run_) return hold_back(MotionEnd::withheld, "a dry run", motion.duration_s());
   if (parts_.person.may_move) {
     const std::string what = "move the arm for " + figure(motion.duration_s(), 1) + " s";
     if (!parts_.person.may_move(what)) return hold_back(MotionEnd::withheld, "not confirmed");
-    if (auto ok = fresh(); !ok) return tl::unexpected(ok.error());
-    if (auto refused = refusal(path)) {  // a person may have taken minutes
-      held_back_ = std::move(refused);
-      return duration_s_ = 0.0;
-    }
+    may = may_begin(path);  // the answer may have taken minutes
+    if (!may) return tl::unexpected(may.error());
+    if (!*may) return 0.0;
   }
   goal_ = trajectory_goal(motion, names_, drivers_positions(), parts_.robot.endless(),
                           {settings_.rate_hz, settings_.path_tolerance_rad,
@@ -149,9 +152,8 @@ Expected<double> Ros2Arm::start(const JointPath& path) {
   const auto accepted = client_->send(goal_);
   if (!accepted) return fail_in("lost " + settings_.action, accepted.error());
   if (!*accepted) {
-    return hold_back(MotionEnd::refused, settings_.action +
-                                             " refuses the trajectory; its log "
-                                             "says why");
+    return hold_back(MotionEnd::refused,
+                     settings_.action + " refuses the trajectory; its log says why");
   }
   ++motions_;
   return duration_s_ = duration_s(goal_);

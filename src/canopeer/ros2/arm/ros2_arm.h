@@ -48,6 +48,7 @@ class Ros2Arm : public Arm {
 
   [[nodiscard]] Configuration drivers_positions() const;
   [[nodiscard]] Expected<void> fresh() const;
+  [[nodiscard]] Expected<bool> may_begin(const JointPath& path);
   [[nodiscard]] std::optional<MotionOutcome> refusal(const JointPath& path) const;
   [[nodiscard]] JointLimits limits() const;
   [[nodiscard]] std::optional<std::string> cancel_reason() const;

@@ -58,6 +58,11 @@ class CameraFeed {
   /// The last dozens are kept only: ask often.
   [[nodiscard]] std::vector<TimedFrame> frames_since(Stamp stamp);
 
+  /// Where the camera was, by the clock of joint states.
+  [[nodiscard]] Expected<Pose> pose_at(Stamp stamp, const std::string& frame_id) const {
+    return poses_->at(stamp, frame_id);
+  }
+
   /// Messages that could not be read.
   [[nodiscard]] std::int64_t malformed() const;
   /// Why the last of them could not be read; empty: none.
