@@ -50,9 +50,9 @@ Expected<void> Ros2Output::open_parameters(const Parts& parts) {
                            100.0};
   };
   std::vector<ParameterAccess> live = {
-      rate("ros2.output.map_rate_hz", &Ros2OutputSettings::map_rate_hz),
-      rate("ros2.output.image_rate_hz", &Ros2OutputSettings::image_rate_hz),
-      {"ros2.confirm", "Every motion is asked for: ~/confirm, ~/refuse.",
+      rate("output.map_rate_hz", &Ros2OutputSettings::map_rate_hz),
+      rate("output.image_rate_hz", &Ros2OutputSettings::image_rate_hz),
+      {"confirm", "Every motion is asked for: ~/confirm, ~/refuse.",
        [this] { return parameter_value(consent_.asking()); },
        [this](const ParameterValue& value) -> Expected<void> {
          consent_.set_asking(value.bool_value);
