@@ -17,7 +17,7 @@
 namespace canopeer::ros {
 namespace {
 
-using Steady = std::chrono::steady_clock;
+using TellingClock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 constexpr auto kLook = 50ms;         // for what is due
@@ -104,7 +104,7 @@ void Ros2Watcher::State::note(const Event& event) {
 }
 
 void Ros2Watcher::State::run(const std::stop_token& stop) {
-  Steady::time_point told{};
+  TellingClock::time_point told{};
   while (true) {
     News what;
     ToldTopics::Rates at_most;
@@ -117,9 +117,9 @@ void Ros2Watcher::State::run(const std::stop_token& stop) {
     offer(what);
     const bool last = what.ended || stop.stop_requested();
     last ? topics.tell_all() : topics.tell_what_is_due(at_most);
-    if (last || what.progress || Steady::now() - told >= kProgressEvery) {
+    if (last || what.progress || TellingClock::now() - told >= kProgressEvery) {
       tell_progress();
-      told = Steady::now();
+      told = TellingClock::now();
     }
     if (stop.stop_requested()) return;
   }
