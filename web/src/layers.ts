@@ -1,7 +1,7 @@
 /** What can be shown and hidden; digits switch the first ten. */
 export const kLayers = [
   { id: "robot", name: "Robot", on: true },
-  { id: "camera", name: "Camera and picture", on: true },
+  { id: "camera", name: "Camera", on: true },
   { id: "occupied", name: "Map: occupied", on: true },
   { id: "roi", name: "Map: fruit", on: true },
   { id: "frontiers", name: "Frontiers", on: false },
@@ -11,6 +11,7 @@ export const kLayers = [
   { id: "fruits", name: "Fruits found", on: true },
   { id: "plants", name: "True plants", on: true },
   { id: "trueFruits", name: "True fruits", on: false },
+  { id: "around", name: "True surroundings", on: false },
   { id: "views", name: "Views taken", on: true },
   { id: "boxes", name: "Search boxes", on: false },
 ] as const;

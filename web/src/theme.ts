@@ -15,6 +15,7 @@ export interface Palette {
   robot: string;
   robotDark: string;
   voxel: string;
+  floorVoxel: string;
   roi: string;
   occupied: string;
   border: string;
@@ -32,9 +33,10 @@ const kLight: Palette = {
   muted: "#5d6862",
   rule: "#dfe3df",
   card: "#ffffff",
-  robot: "#d8dcda",
-  robotDark: "#8b9690",
+  robot: "#e3e7e5",
+  robotDark: "#a9b3ae",
   voxel: "#8fa493",
+  floorVoxel: "#c6cbc5",
   roi: "#b0307a",
   occupied: "#0068a8",
   border: "#c77700",
@@ -55,6 +57,7 @@ const kDark: Palette = {
   robot: "#b9c1bc",
   robotDark: "#68736d",
   voxel: "#7f9985",
+  floorVoxel: "#3a443e",
   roi: "#ee85bd",
   occupied: "#5ab4ec",
   border: "#f0ae3c",

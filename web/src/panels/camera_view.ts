@@ -1,5 +1,5 @@
 import type { View } from "../data/messages.ts";
-import type { Actions, Moment } from "../moment.ts";
+import type { Actions, Moment, Selection } from "../moment.ts";
 import { depthPicture, detectionOverlay, paintLayers } from "../pictures/paint.ts";
 import { depthGradient } from "../pictures/false_color.ts";
 import type { PictureStore } from "../pictures/picture_store.ts";
@@ -69,7 +69,7 @@ export class PicturePair {
   }
 }
 
-/** What the camera saw last. */
+/** What the camera saw last, or in the view that was picked. */
 export class CameraPanel {
   readonly element: HTMLElement;
   readonly pair: PicturePair;
@@ -88,9 +88,12 @@ export class CameraPanel {
     );
   }
 
-  update({ view }: Moment): void {
+  update(moment: Moment, selection: Selection): void {
+    const picked = selection?.is === "view" ? moment.timeline.view(selection.view) : null;
+    const view = picked ?? moment.view;
     this.view = view;
-    setText(this.caption, view ? `View ${view.view} · ${kindName(view.kind)} · ${shortClock(view.t)}` : "No view yet");
+    const what = picked ? "Picked: view" : "View";
+    setText(this.caption, view ? `${what} ${view.view} · ${kindName(view.kind)} · ${shortClock(view.t)}` : "No view yet");
     this.pair.show(view?.view ?? null);
   }
 

@@ -6,7 +6,6 @@ import type { PictureStore } from "../pictures/picture_store.ts";
 import { centimetres, clock, kindName, percent, seconds, whole } from "../ui/format.ts";
 import { el, fill, setText } from "../ui/dom.ts";
 import { icon } from "../ui/icons.ts";
-import { PicturePair } from "./camera_view.ts";
 import { swatch } from "./fruit_list.ts";
 import { outlines } from "./outline.ts";
 
@@ -18,7 +17,6 @@ export class Detail {
   readonly element: HTMLElement;
   private readonly title = el("h2");
   private readonly body = el("div", { class: "detail-body" });
-  private readonly pair: PicturePair;
   private shownAs = "";
   private asked = 0;
 
@@ -26,7 +24,6 @@ export class Detail {
     private readonly store: PictureStore,
     private readonly actions: Actions,
   ) {
-    this.pair = new PicturePair(store, null);
     this.element = el(
       "section",
       { class: "card detail", hidden: true, label: "What was picked" },
@@ -54,7 +51,6 @@ export class Detail {
     this.shownAs = as;
     setText(this.title, `View ${number}`);
     if (!view) return fill(this.body, el("p", { class: "none" }, "There is no such view."));
-    this.pair.show(number);
     const index = timeline.views.indexOf(view);
     const go = (by: number, name: string) => {
       const other = timeline.views[index + by];
@@ -63,8 +59,7 @@ export class Detail {
     const changed = timeline.fruitsOfView.get(number) ?? [];
     fill(
       this.body,
-      el("div", { class: "buttons" }, go(-1, "Earlier"), go(1, "Later"), el("button", { class: "plain", on: { click: () => this.actions.enlarge(number) } }, "Large")),
-      this.pair.element,
+      el("div", { class: "buttons" }, go(-1, "Earlier"), go(1, "Later"), el("button", { class: "plain", on: { click: () => this.actions.enlarge(number) } }, "Large pictures")),
       viewFigures(view),
       el("h3", {}, changed.length > 0 ? "Fruits found or changed" : "No fruit changed"),
       el("div", { class: "chips" }, ...changed.map((f) => this.fruitChip(f))),
@@ -136,7 +131,7 @@ function viewFigures(view: View): HTMLElement {
     ["Planned for", seconds(view.planning)],
     ["Moved for", seconds(view.motion)],
     ["Fruits known", whole(view.fruits)],
-    ["Graph", `${whole(view.nodes)} views, ${whole(view.edges)} ways`],
+    ["Graph", `${whole(view.nodes)} · ${whole(view.edges)} ways`],
   ]);
 }
 

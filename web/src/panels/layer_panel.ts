@@ -8,6 +8,8 @@ const kFrontierKinds: [FrontierKind, string][] = [
   ["border", "border"],
 ];
 
+const kTruth = new Set<string>(["plants", "trueFruits", "around"]);
+
 /** Switches for what the 3D picture shows. */
 export class LayerPanel {
   readonly element: HTMLElement;
@@ -43,7 +45,7 @@ export class LayerPanel {
       for (const { kind, button } of kinds) button.setAttribute("aria-pressed", String(layers.isKindOn(kind)));
       kindRow.hidden = !layers.isOn("frontiers");
     });
-    this.truthRows = switches.filter((s) => s.layer.id === "plants" || s.layer.id === "trueFruits").map((s) => s.row);
+    this.truthRows = switches.filter((s) => kTruth.has(s.layer.id)).map((s) => s.row);
   }
 
   /** The truth is known in simulation only. */

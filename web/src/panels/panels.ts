@@ -102,7 +102,7 @@ export class Panels {
   update(moment: Moment): void {
     const { selection, live } = this.app;
     this.header.update(moment);
-    this.camera.update(moment);
+    this.camera.update(moment, selection);
     this.transport.update(moment, live);
     this.controls.update(moment, true);
     this.layerPanel.update();

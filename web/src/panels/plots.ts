@@ -17,6 +17,7 @@ class TimePlot {
   private plot: uPlot | null = null;
   private data: uPlot.AlignedData = [[], []];
   private end = 1;
+  private now = 0;
 
   constructor(
     title: string,
@@ -41,8 +42,13 @@ class TimePlot {
 
   /** The veil begins here. */
   setNow(t: number): void {
+    this.now = t;
+    this.placeVeil();
+  }
+
+  private placeVeil(): void {
     if (!this.plot) return;
-    const left = Math.round(this.plot.valToPos(t, "x"));
+    const left = Math.round(this.plot.valToPos(this.now, "x"));
     this.veil.style.transform = `translateX(${Math.max(0, left)}px)`;
   }
 
@@ -58,6 +64,7 @@ class TimePlot {
     if (width < 40 || height < 40) return;
     if (this.plot) this.plot.setSize({ width, height });
     else this.make(width, height);
+    this.placeVeil();
   }
 
   private make(width: number, height: number): void {
@@ -69,7 +76,7 @@ class TimePlot {
       ticks: { show: false },
       gap: 4,
     };
-    const { series = [], scales = {} } = this.options(palette);
+    const { series = [], scales = {}, axes = [] } = this.options(palette);
     this.plot = new uPlot(
       {
         width,
@@ -80,7 +87,7 @@ class TimePlot {
         scales: { x: { time: false, range: () => [0, this.end] }, ...scales },
         axes: [
           { ...axis, size: 20, values: (_, ticks) => ticks.map(shortClock), space: 60, incrs: kTimeSteps },
-          { ...axis, size: 40, values: (_, ticks) => ticks.map((v) => (v === null ? "" : brief(v))), space: 24 },
+          { ...axis, size: 40, values: (_, ticks) => ticks.map(brief), space: 24, ...axes[0] },
         ],
         series: [{}, ...series],
         hooks: { setCursor: [(u) => this.read(u)] },
@@ -102,6 +109,13 @@ class TimePlot {
     const values = this.names.map((_, s) => brief(u.data[s + 1]?.[i] ?? null));
     setText(this.reading, `${shortClock(u.data[0][i])} · ${values.join(" / ")}`);
   }
+}
+
+/** Powers of ten; every second one where there are many. */
+function decades(min: number, max: number): number[] {
+  const [low, high] = [Math.round(Math.log10(min)), Math.round(Math.log10(max))];
+  const step = high - low > 4 ? 2 : 1;
+  return Array.from({ length: Math.floor((high - low) / step) + 1 }, (_, i) => 10 ** (low + i * step));
 }
 
 const kTimeSteps = [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600];
@@ -138,7 +152,8 @@ export class Plots {
           { stroke: p.border, width: 1, paths: () => null, points: { show: true, size: 4.5, width: 1.3, fill: p.card } },
           { stroke: p.occupied, width: 1.5, points: { show: true, size: 3.5, fill: p.occupied } },
         ],
-        scales: { y: { distr: 3, range: (_u, min, max) => [10 ** Math.floor(Math.log10(Math.max(1, min || 1))), 10 ** Math.ceil(Math.log10(Math.max(10, max || 10)))] } },
+        scales: { y: { distr: 3, range: (_u, _min, max) => [10, 10 ** Math.ceil(Math.log10(Math.max(1000, max || 0)))] } },
+        axes: [{ splits: (_u, _axis, min, max) => decades(min, max) }],
       }),
       () => theme.palette,
       nearest,
@@ -165,7 +180,7 @@ export class Plots {
         [ends(views.map((v) => v.fruits), views.at(-1)?.fruits ?? null), xs.map(() => counted)],
         end,
       );
-      const positive = (v: number | null) => (v !== null && v >= 1 ? v : null);
+      const positive = (v: number | null) => (v === null ? null : Math.max(v, 10));
       this.gain.setData(x, [views.map((v) => positive(v.predicted)), views.map((v) => positive(v.realised))], end);
     }
     this.fruits.setNow(t);

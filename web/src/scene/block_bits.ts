@@ -1,7 +1,7 @@
 // Voxels out of blocks: which of them can be seen, and which way their surface faces.
 
 /** Blocks of a chunk, a side. */
-export const kChunkBlocks = 4;
+export const kChunkBlocks = 8;
 /** Voxels of a chunk, a side. */
 export const kChunk = 8 * kChunkBlocks;
 const kPadded = kChunk + 2;
@@ -50,25 +50,11 @@ const kNeighbours = (() => {
   return list;
 })();
 
-/**
- * The voxels of a chunk that have a free side (or all of them); `sets`: how many sets of 64 octets a
- * block has. Flag bit i: the voxel is in set i.
- */
-export function chunkVoxels(blocks: BlockLookup, sets: number, hideInner: boolean): ChunkVoxels {
-  padded.fill(0);
-  const rim = hideInner ? 1 : 0;
-  for (let bz = -rim; bz < kChunkBlocks + rim; ++bz)
-    for (let by = -rim; by < kChunkBlocks + rim; ++by)
-      for (let bx = -rim; bx < kChunkBlocks + rim; ++bx) {
-        const block = blocks(bx, by, bz);
-        if (block) for (let set = 0; set < sets; ++set) spread(block, set, bx, by, bz);
-      }
-
-  const cells: number[] = [];
-  const normals: number[] = [];
-  for (let z = 0; z < kChunk; ++z)
-    for (let y = 0; y < kChunk; ++y)
-      for (let x = 0, at = paddedIndex(0, y, z); x < kChunk; ++x, ++at) {
+/** Appends the visible voxels of the block that begins there. */
+function collect(x0: number, y0: number, z0: number, hideInner: boolean, cells: number[], normals: number[]): void {
+  for (let z = z0; z < z0 + 8; ++z)
+    for (let y = y0; y < y0 + 8; ++y)
+      for (let x = x0, at = paddedIndex(x0, y, z); x < x0 + 8; ++x, ++at) {
         const flags = padded[at];
         if (flags === 0) continue;
         let [nx, ny, nz, free] = [0, 0, 0, false];
@@ -85,5 +71,48 @@ export function chunkVoxels(blocks: BlockLookup, sets: number, hideInner: boolea
         cells.push(x, y, z, flags);
         normals.push(Math.round(nx * scale), Math.round(ny * scale), Math.round(nz * scale), 0);
       }
+}
+
+/**
+ * The voxels of a chunk that have a free side (or all of them); `sets`: how many sets of 64 octets a
+ * block has. Flag bit i: the voxel is in set i.
+ */
+export function chunkVoxels(blocks: BlockLookup, sets: number, hideInner: boolean): ChunkVoxels {
+  padded.fill(0);
+  const rim = hideInner ? 1 : 0;
+  for (let bz = -rim; bz < kChunkBlocks + rim; ++bz)
+    for (let by = -rim; by < kChunkBlocks + rim; ++by)
+      for (let bx = -rim; bx < kChunkBlocks + rim; ++bx) {
+        const block = blocks(bx, by, bz);
+        if (block) for (let set = 0; set < sets; ++set) spread(block, set, bx, by, bz);
+      }
+
+  const cells: number[] = [];
+  const normals: number[] = [];
+  for (let bz = 0; bz < kChunkBlocks; ++bz)
+    for (let by = 0; by < kChunkBlocks; ++by)
+      for (let bx = 0; bx < kChunkBlocks; ++bx)
+        if (blocks(bx, by, bz)) collect(8 * bx, 8 * by, 8 * bz, hideInner, cells, normals);
   return { count: cells.length / 4, cells: Uint8Array.from(cells), normals: Int8Array.from(normals) };
+}
+
+/** The same surface in cells of 2 × 2 × 2 voxels, for afar. */
+export function coarser({ count, cells, normals }: ChunkVoxels): ChunkVoxels {
+  const sums = new Map<number, [number, number, number, number]>();
+  for (let i = 0; i < 4 * count; i += 4) {
+    const key = ((cells[i + 2] >> 1) * kChunk + (cells[i + 1] >> 1)) * kChunk + (cells[i] >> 1);
+    let sum = sums.get(key);
+    if (!sum) sums.set(key, (sum = [0, 0, 0, 0]));
+    for (let k = 0; k < 3; ++k) sum[k] += normals[i + k];
+    sum[3] |= cells[i + 3];
+  }
+  const out = { count: sums.size, cells: new Uint8Array(4 * sums.size), normals: new Int8Array(4 * sums.size) };
+  let at = 0;
+  for (const [key, [x, y, z, flags]] of sums) {
+    const scale = 127 / Math.max(1, Math.hypot(x, y, z));
+    out.cells.set([key % kChunk, Math.floor(key / kChunk) % kChunk, Math.floor(key / kChunk ** 2), flags], at);
+    out.normals.set([x * scale, y * scale, z * scale, 0], at);
+    at += 4;
+  }
+  return out;
 }

@@ -1,7 +1,7 @@
 import * as THREE from "three";
 import { blockIndex, blockKey } from "../data/timeline.ts";
 import type { History } from "../data/history.ts";
-import { type ChunkVoxels, chunkVoxels, kChunk, kChunkBlocks } from "./block_bits.ts";
+import { type ChunkVoxels, chunkVoxels, coarser, kChunk, kChunkBlocks } from "./block_bits.ts";
 
 /** What a cloud of voxels looks like. */
 export interface CloudLook {
@@ -9,8 +9,8 @@ export interface CloudLook {
   sets: number;
   /** Voxels with neighbours all around are left out. */
   hideInner: boolean;
-  /** Draws one point per voxel. */
-  points: THREE.ShaderMaterial;
+  /** Draw one point per voxel, per 2 × 2 × 2 and per 4 × 4 × 4 voxels. */
+  points: THREE.ShaderMaterial[];
   /** Draws one cube per voxel near the camera; none: always points. */
   cubes?: THREE.ShaderMaterial;
 }
@@ -19,12 +19,20 @@ interface Chunk {
   box: THREE.Box3;
   origin: THREE.Vector3;
   voxels: ChunkVoxels;
-  points: THREE.Points;
+  /** By level: voxels, and larger cells; made when they are needed. */
+  points: THREE.Points[];
   cubes: THREE.Mesh | null;
 }
 
-/** Milliseconds a frame may spend on new chunks. */
-const kBudget_ms = 10;
+/** How a frame is to be drawn. */
+export interface Detail {
+  /** Cubes up to this distance from the camera, metres. */
+  cubesWithin: number;
+  /** Cells of twice the size beyond this one, and of twice that beyond its double. */
+  coarseBeyond: number;
+  /** Milliseconds that may be spent on new chunks. */
+  budget_ms: number;
+}
 
 /** Voxels in blocks, drawn chunk by chunk; only what changed between two moments is made anew. */
 export class BlockCloud {
@@ -53,8 +61,9 @@ export class BlockCloud {
     this.dirty.clear();
     this.shown = -1;
     this.resolution = resolution;
-    for (const material of [this.look.points, this.look.cubes])
-      if (material) material.uniforms.size.value = resolution;
+    const { points, cubes } = this.look;
+    points.forEach((material, level) => (material.uniforms.size.value = resolution * 2 ** level));
+    if (cubes) cubes.uniforms.size.value = resolution;
   }
 
   /** Shows the history after this step. */
@@ -71,14 +80,14 @@ export class BlockCloud {
   }
 
   /** Makes what is not made yet, as much as time allows; true: there is more. */
-  update(camera: THREE.Camera, cubesWithin: number): boolean {
+  update(camera: THREE.Camera, detail: Detail): boolean {
     const begin = performance.now();
     for (const key of this.dirty) {
       this.make(key);
       this.dirty.delete(key);
-      if (performance.now() - begin > kBudget_ms) break;
+      if (performance.now() - begin > detail.budget_ms) break;
     }
-    if (this.look.cubes) this.chooseCubes(camera, cubesWithin);
+    this.chooseDetail(camera, detail);
     return this.dirty.size > 0;
   }
 
@@ -104,19 +113,7 @@ export class BlockCloud {
     const edge = kChunk * this.resolution;
     const origin = new THREE.Vector3(cx, cy, cz).multiplyScalar(edge);
     const box = new THREE.Box3(origin, origin.clone().addScalar(edge));
-    const points = this.makePoints(voxels, box);
-    points.position.copy(origin);
-    this.group.add(points);
-    this.chunks.set(key, { box, origin, voxels, points, cubes: null });
-  }
-
-  private makePoints(voxels: ChunkVoxels, box: THREE.Box3): THREE.Points {
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("cell", new THREE.BufferAttribute(voxels.cells, 4));
-    geometry.setAttribute("facing", new THREE.BufferAttribute(voxels.normals, 4, true));
-    geometry.setDrawRange(0, voxels.count);
-    geometry.boundingSphere = sphereOf(box);
-    return new THREE.Points(geometry, this.look.points);
+    this.chunks.set(key, { box, origin, voxels, points: [], cubes: null });
   }
 
   private makeCubes(voxels: ChunkVoxels, box: THREE.Box3): THREE.Mesh {
@@ -130,35 +127,55 @@ export class BlockCloud {
     return new THREE.Mesh(geometry, this.look.cubes);
   }
 
-  /** The nearest chunks become cubes, as far as the limit goes. */
-  private chooseCubes(camera: THREE.Camera, within: number): void {
+  private place<T extends THREE.Object3D>(object: T, origin: THREE.Vector3): T {
+    object.position.copy(origin);
+    this.group.add(object);
+    return object;
+  }
+
+  /** The nearest chunks become cubes, as far as the limit goes; those far away become coarse. */
+  private chooseDetail(camera: THREE.Camera, { cubesWithin, coarseBeyond }: Detail): void {
     const near = [...this.chunks.values()]
       .map((chunk) => ({ chunk, distance: chunk.box.distanceToPoint(camera.position) }))
       .sort((a, b) => a.distance - b.distance);
-    let left = this.cubeLimit;
+    let left = this.look.cubes ? this.cubeLimit : 0;
     for (const { chunk, distance } of near) {
       left -= chunk.voxels.count;
-      const asCubes = distance < within && left >= 0;
-      if (asCubes && !chunk.cubes) {
-        chunk.cubes = this.makeCubes(chunk.voxels, chunk.box);
-        chunk.cubes.position.copy(chunk.origin);
-        this.group.add(chunk.cubes);
-      }
+      const asCubes = distance < cubesWithin && left >= 0;
+      const level = asCubes ? -1 : distance < coarseBeyond ? 0 : distance < 2 * coarseBeyond ? 1 : 2;
+      if (asCubes) chunk.cubes ??= this.place(this.makeCubes(chunk.voxels, chunk.box), chunk.origin);
+      else this.makeLevel(chunk, level);
       if (chunk.cubes) chunk.cubes.visible = asCubes;
-      chunk.points.visible = !asCubes;
+      chunk.points.forEach((points, l) => (points.visible = l === level));
     }
+  }
+
+  private makeLevel(chunk: Chunk, level: number): void {
+    if (chunk.points[level]) return;
+    let voxels = chunk.voxels;
+    for (let l = 0; l < level; ++l) voxels = coarser(voxels);
+    chunk.points[level] = this.place(makePoints(voxels, chunk.box, this.look.points[level]), chunk.origin);
   }
 
   private drop(key: number): void {
     const chunk = this.chunks.get(key);
     if (!chunk) return;
-    for (const object of [chunk.points, chunk.cubes]) {
+    for (const object of [...chunk.points, chunk.cubes]) {
       if (!object) continue;
       object.geometry.dispose();
       this.group.remove(object);
     }
     this.chunks.delete(key);
   }
+}
+
+function makePoints(voxels: ChunkVoxels, box: THREE.Box3, material: THREE.Material): THREE.Points {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("cell", new THREE.BufferAttribute(voxels.cells, 4));
+  geometry.setAttribute("facing", new THREE.BufferAttribute(voxels.normals, 4, true));
+  geometry.setDrawRange(0, voxels.count);
+  geometry.boundingSphere = sphereOf(box);
+  return new THREE.Points(geometry, material);
 }
 
 function chunkOf(x: number, y: number, z: number): number {

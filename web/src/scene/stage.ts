@@ -4,8 +4,14 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 /** Something that wants a say before each frame; true: it needs another one. */
 export type BeforeFrame = (now: number) => boolean;
 
-/** Below this many frames a second, moving pictures are drawn coarser. */
+/** Where frames take longer than this, moving pictures are drawn coarser. */
 const kGoodFrame_ms = 60;
+
+/** Never coarser than this share of the pixels a side. */
+const kCoarsest = 0.5;
+
+/** Pixels of the largest cells of the map that are drawn for voxels. */
+const kLargestCell = 4;
 
 /**
  * Canvas, camera and lights. Draws only when something changed; on slow machines it draws coarser
@@ -21,21 +27,26 @@ export class Stage {
   /** Milliseconds a frame took, smoothed. */
   frame_ms = 16;
   frames = 0;
+  /** Nothing moves: the frame that is drawn may take its time. */
+  fine = false;
   private readonly before: BeforeFrame[] = [];
   private asked = false;
   private scale = 1;
+  private coarseness = 0;
   private shownScale = 0;
   private settle = 0;
   private lastFrame = 0;
+  private inRow = false;
   private fly: { from: View3; to: View3; begin: number } | null = null;
 
   /** Throws where there is no WebGL. */
   constructor(private readonly holder: HTMLElement) {
     THREE.ColorManagement.enabled = true;
+    this.slow = isSoftware();
+    if (this.slow) this.coarseness = kLargestCell;
     const canvas = document.createElement("canvas");
-    const context = canvas.getContext("webgl2", { antialias: true, powerPreference: "high-performance" });
+    const context = canvas.getContext("webgl2", { antialias: !this.slow, powerPreference: "high-performance" });
     if (!context) throw new Error("no WebGL 2");
-    this.slow = isSoftware(context);
     this.renderer = new THREE.WebGLRenderer({ canvas, context });
     canvas.tabIndex = 0;
     canvas.setAttribute("role", "img");
@@ -67,6 +78,16 @@ export class Stage {
   /** Called before each frame. */
   beforeFrame(call: BeforeFrame): void {
     this.before.push(call);
+  }
+
+  /** Voxels smaller than so many pixels may be drawn as larger cells. */
+  get cellPixels(): number {
+    return this.fine ? 0.8 : 0.8 + this.coarseness;
+  }
+
+  /** This frame should be quick rather than fine. */
+  get coarse(): boolean {
+    return !this.fine && this.coarseness > 0;
   }
 
   /** Something changed: draw soon. */
@@ -133,25 +154,33 @@ export class Stage {
     let more = this.advanceFlight(now);
     if (this.controls.update()) more = true;
     for (const call of this.before) if (call(now)) more = true;
-    const gap = now - this.lastFrame;
-    this.lastFrame = now;
-    if (gap < 1000) {
-      // Frames in a row: the time between two is what one took.
-      this.frame_ms += 0.15 * (gap - this.frame_ms);
-      if (this.frame_ms > kGoodFrame_ms && this.scale > 0.5) this.scale = Math.max(0.5, this.scale - 0.1);
-      else if (this.frame_ms < 0.4 * kGoodFrame_ms && this.scale < 1) this.scale += 0.05;
-    }
-    this.applyScale(Math.min(1, this.scale));
+    this.adapt(now);
+    this.applyScale(this.scale);
     this.render();
+    this.inRow = more;
     clearTimeout(this.settle);
     if (more) this.ask();
-    else if (this.scale < 1) this.settle = window.setTimeout(() => this.drawFinely(), 250);
+    else if (this.scale < 1 || this.coarseness > 0) this.settle = window.setTimeout(() => this.drawFinely(), 250);
+  }
+
+  /** Frames in a row: the time between two is what one took. */
+  private adapt(now: number): void {
+    const gap = now - this.lastFrame;
+    this.lastFrame = now;
+    if (gap > 250 && !this.inRow) return;
+    this.frame_ms += 0.2 * (Math.min(gap, 2000) - this.frame_ms);
+    const step = this.frame_ms > kGoodFrame_ms ? 1 : this.frame_ms < 0.4 * kGoodFrame_ms ? -0.5 : 0;
+    this.scale = Math.min(1, Math.max(kCoarsest, this.scale - 0.1 * step));
+    this.coarseness = Math.min(kLargestCell, Math.max(0, this.coarseness + 0.5 * step));
   }
 
   private drawFinely(): void {
     if (this.asked) return;
+    this.fine = true;
     this.applyScale(1);
+    for (const call of this.before) call(performance.now());
     this.render();
+    this.fine = false;
     this.lastFrame = 0;
   }
 
@@ -177,8 +206,12 @@ interface View3 {
   target: THREE.Vector3;
 }
 
-function isSoftware(context: WebGL2RenderingContext): boolean {
+/** Whether the processor draws, not a graphics card. */
+function isSoftware(): boolean {
+  const context = document.createElement("canvas").getContext("webgl2");
+  if (!context) return false;
   const info = context.getExtension("WEBGL_debug_renderer_info");
   const name = info ? String(context.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
+  context.getExtension("WEBGL_lose_context")?.loseContext();
   return /swiftshader|llvmpipe|software|softpipe/i.test(name);
 }

@@ -1,58 +1,95 @@
 import * as THREE from "three";
-import type { Truth } from "../data/messages.ts";
+import type { Truth, TruthPart } from "../data/messages.ts";
 import type { Palette } from "../theme.ts";
 import { dispose } from "./matrices.ts";
+import { type ColoredMesh, simplify } from "./simplify.ts";
+
+/** What belongs to plants; the rest is around them. */
+const kPlantParts = new Set(["leaf", "stem", "fruit"]);
+
+/** Cells of the coarse mesh. */
+const kCell_m = 0.018;
+
+/** How much of the true colours is left. */
+const kStrength = 0.6;
 
 /** What really stands there, in simulation: pale, to be told from what the robot knows. */
 export class TruthModel {
-  readonly group = new THREE.Group();
-  private readonly materials: { material: THREE.MeshLambertMaterial; color: THREE.Color }[] = [];
-  private palette: Palette | null = null;
+  readonly plants = new THREE.Group();
+  readonly around = new THREE.Group();
+  private readonly material = new THREE.MeshLambertMaterial({
+    side: THREE.DoubleSide,
+    flatShading: true,
+    vertexColors: true,
+  });
 
   set(truth: Truth): void {
     this.clear();
-    for (const part of truth.parts) {
-      const color = new THREE.Color().setRGB(
-        part.color[0] / 255,
-        part.color[1] / 255,
-        part.color[2] / 255,
-        THREE.SRGBColorSpace,
-      );
-      const material = new THREE.MeshLambertMaterial({ side: THREE.DoubleSide, flatShading: true });
-      this.materials.push({ material, color });
-      const geometry = new THREE.BufferGeometry();
-      const [vertices, triangles] = pieceOf(truth, part.first, part.triangles);
-      geometry.setAttribute("position", new THREE.BufferAttribute(vertices, 3));
-      geometry.setIndex(new THREE.BufferAttribute(triangles, 1));
-      this.group.add(new THREE.Mesh(geometry, material));
+    for (const [group, parts] of [
+      [this.plants, truth.parts.filter((p) => kPlantParts.has(p.what))],
+      [this.around, truth.parts.filter((p) => !kPlantParts.has(p.what))],
+    ] as const) {
+      const mesh = meshOf(truth, parts);
+      group.add(this.make(mesh));
+      if (mesh.triangles.length > 3 * 20000) group.add(this.make(simplify(mesh, kCell_m)));
     }
-    if (this.palette) this.paint(this.palette);
+    this.setCoarse(false);
+  }
+
+  /** Draws fewer triangles. */
+  setCoarse(coarse: boolean): void {
+    for (const group of [this.plants, this.around]) {
+      const last = group.children.length - 1;
+      group.children.forEach((child, i) => (child.visible = i === (coarse ? last : 0)));
+    }
   }
 
   paint(palette: Palette): void {
-    this.palette = palette;
-    const paper = new THREE.Color(palette.background);
-    for (const { material, color } of this.materials) material.color.copy(color).lerp(paper, 0.45);
+    this.material.color.setScalar(kStrength);
+    this.material.emissive.set(palette.background).multiplyScalar(1 - kStrength);
   }
 
   clear(): void {
-    for (const child of [...this.group.children]) dispose(child);
-    this.materials.length = 0;
+    for (const group of [this.plants, this.around]) for (const child of [...group.children]) dispose(child);
+  }
+
+  private make({ vertices, colors, triangles }: ColoredMesh): THREE.Mesh {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(vertices, 3));
+    geometry.setAttribute("color", new THREE.BufferAttribute(colors, 3));
+    geometry.setIndex(new THREE.BufferAttribute(triangles, 1));
+    return new THREE.Mesh(geometry, this.material);
   }
 }
 
-/** A part with vertices of its own, numbered anew. */
-function pieceOf(truth: Truth, first: number, count: number): [Float32Array, Uint32Array] {
-  const corners = truth.triangles.slice(3 * first, 3 * (first + count));
-  const numbers = new Map<number, number>();
+/** These parts as one mesh. */
+function meshOf(truth: Truth, parts: TruthPart[]): ColoredMesh {
+  const numbers = new Int32Array(truth.vertices.length / 3);
   const vertices: number[] = [];
-  for (let i = 0; i < corners.length; ++i) {
-    let number = numbers.get(corners[i]);
-    if (number === undefined) {
-      numbers.set(corners[i], (number = numbers.size));
-      for (let k = 0; k < 3; ++k) vertices.push(truth.vertices[3 * corners[i] + k]);
+  const colors: number[] = [];
+  const triangles: number[] = [];
+  for (const part of parts) {
+    // Vertices are numbered anew for each part, with its colour.
+    numbers.fill(-1);
+    const color = new THREE.Color().setRGB(
+      part.color[0] / 255,
+      part.color[1] / 255,
+      part.color[2] / 255,
+      THREE.SRGBColorSpace,
+    );
+    for (let i = 3 * part.first; i < 3 * (part.first + part.triangles); ++i) {
+      const corner = truth.triangles[i];
+      if (numbers[corner] < 0) {
+        numbers[corner] = vertices.length / 3;
+        for (let k = 0; k < 3; ++k) vertices.push(truth.vertices[3 * corner + k]);
+        colors.push(color.r, color.g, color.b);
+      }
+      triangles.push(numbers[corner]);
     }
-    corners[i] = number;
   }
-  return [Float32Array.from(vertices), corners];
+  return {
+    vertices: Float32Array.from(vertices),
+    colors: Float32Array.from(colors),
+    triangles: Uint32Array.from(triangles),
+  };
 }

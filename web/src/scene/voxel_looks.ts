@@ -29,18 +29,23 @@ export function cloudUniforms(): CloudUniforms {
 const kCommon = /* glsl */ `
 uniform float size, pixels;
 uniform vec3 shown, colorA, colorB, colorC;
+const float kRoiSize = 0.6;
 varying vec3 vColor;
 bool has(float flags, float bit) { return mod(floor(flags / bit), 2.0) > 0.5; }
 const vec4 kNowhere = vec4(2.0, 2.0, 2.0, 1.0);
 `;
 
-/** Occupied in the cloud's colour, ROI in its own; false: neither is shown. */
+/**
+ * Occupied in the cloud's colour, paler at the floor; ROI in its own, and small, so that fitted
+ * shapes are seen between. `scale`: of a voxel's edge, 0 where it is not shown.
+ */
 const kMapColor = /* glsl */ `
-bool pick(float flags, float height, out vec3 color) {
+void pick(float flags, float height, out vec3 color, out float scale) {
   bool roi = has(flags, 2.0) && shown.y > 0.5;
-  if (!roi && !(has(flags, 1.0) && shown.x > 0.5)) return false;
-  color = roi ? colorB : mix(colorA * 0.72, colorA * 1.22, clamp(height / 2.2, 0.0, 1.0));
-  return true;
+  bool occupied = has(flags, 1.0) && shown.x > 0.5;
+  scale = roi ? kRoiSize : occupied ? 1.0 : 0.0;
+  vec3 plant = mix(colorA * 0.8, colorA * 1.2, clamp(height / 2.2, 0.0, 1.0));
+  color = roi ? colorB : mix(colorC, plant, smoothstep(0.0, 0.1, height));
 }
 float light(vec3 n, vec3 toEye) {
   float l = length(n);
@@ -68,13 +73,15 @@ ${kCommon}${kMapColor}
 void main() {
   vec4 world = modelMatrix * vec4((cell.xyz + 0.5) * size, 1.0);
   vec3 color;
+  float scale;
+  pick(cell.w, world.z, color, scale);
   vColor = vec3(0.0);
   gl_Position = kNowhere;
   gl_PointSize = 1.0;
-  if (pick(cell.w, world.z, color)) {
+  if (scale > 0.0) {
     vec4 eye = viewMatrix * world;
     gl_Position = projectionMatrix * eye;
-    gl_PointSize = max(1.5, 1.25 * size * pixels / -eye.z);
+    gl_PointSize = max(1.5, 1.25 * scale * size * pixels / -eye.z);
     vColor = color * light(facing, normalize(cameraPosition - world.xyz));
   }
 }`,
@@ -91,14 +98,16 @@ void main() {
   vec4 world = modelMatrix * vec4((cell.xyz + 0.5) * size, 1.0);
   vec3 toEye = cameraPosition - world.xyz;
   vec3 color;
+  float scale;
+  pick(cell.w, world.z, color, scale);
   vColor = vec3(0.0);
   gl_Position = kNowhere;
-  if (pick(cell.w, world.z, color)) {
+  if (scale > 0.0) {
     int face = gl_VertexID / 4;
     vec3 side = vec3(face == 0, face == 1, face == 2);
     vec3 normal = side * sign(toEye);
     vec3 corner = position * mix(vec3(1.0), sign(toEye), side);
-    world.xyz += corner * size * 0.96;
+    world.xyz += corner * size * 0.96 * scale;
     gl_Position = projectionMatrix * viewMatrix * world;
     toEye = normalize(toEye);
     vColor = color * (0.45 * light(normal, toEye) + 0.55 * light(facing, toEye));
@@ -106,7 +115,15 @@ void main() {
 }`,
     fragmentShader: kFragment,
   });
-  return { sets: 2, hideInner: true, points, cubes };
+  return { sets: 2, hideInner: true, points: levels(points), cubes };
+}
+
+/** A material for each size of cells; all other uniforms are shared. */
+function levels(points: THREE.ShaderMaterial): THREE.ShaderMaterial[] {
+  const { vertexShader, fragmentShader, uniforms } = points;
+  const larger = () =>
+    new THREE.ShaderMaterial({ vertexShader, fragmentShader, uniforms: { ...uniforms, size: { value: 1 } } });
+  return [points, larger(), larger()];
 }
 
 /** Targets: discs (ROI), squares (occupied) and diamonds (border), so that shape tells them apart too. */
@@ -142,5 +159,5 @@ void main() {
   #include <colorspace_fragment>
 }`,
   });
-  return { sets: 3, hideInner: false, points };
+  return { sets: 3, hideInner: false, points: levels(points) };
 }

@@ -47,7 +47,7 @@ export class World {
   ) {
     if (stage.slow) this.map.cubeLimit = 12000;
     stage.scene.add(
-      this.ground.group, this.truth.group, this.trueFruits.group, this.robot.group,
+      this.ground.group, this.truth.plants, this.truth.around, this.trueFruits.group, this.robot.group,
       this.map.group, this.targets.group, this.graph.group, this.paths.driven,
       this.paths.planned, this.fruits.group, this.marks.group, this.boxes.group,
       this.frustum.group, this.chosenFrustum.group,
@@ -113,11 +113,10 @@ export class World {
   /** All there is, or the place the robot is at. */
   frame(whole: boolean, t: number): void {
     const box = this.bounds(whole, t);
-    const sphere = box.getBoundingSphere(new THREE.Sphere());
-    const aspect = Math.min(1.6, this.stage.camera.aspect);
-    const distance = (0.92 * sphere.radius) / Math.sin((this.stage.camera.fov * Math.PI) / 360) / Math.min(1, aspect * 0.85);
-    const direction = new THREE.Vector3(1, -0.95, 0.72).normalize().multiplyScalar(distance);
-    this.stage.flyTo(sphere.center.clone().add(direction), sphere.center);
+    const center = box.getCenter(new THREE.Vector3());
+    const direction = new THREE.Vector3(0.62, -1.1, 0.72).normalize();
+    const distance = fittingDistance(box, center, direction, this.stage.camera);
+    this.stage.flyTo(center.clone().addScaledVector(direction, distance), center);
   }
 
   /** Looks at a place from nearby. */
@@ -164,24 +163,19 @@ export class World {
     for (const segment of whole ? (timeline?.segments ?? []) : now ? [now] : []) {
       box.union(boxOf(segment.workspace)).union(boxOf(segment.region));
     }
-    const truth = new THREE.Box3().setFromObject(this.truth.group);
-    const size = truth.getSize(new THREE.Vector3());
-    if (!truth.isEmpty() && (whole || Math.max(size.x, size.y) < 8)) box.union(this.plantBox(truth));
+    const plants = this.trueFruits.box();
+    const size = plants.getSize(new THREE.Vector3());
+    if (!plants.isEmpty() && (whole || Math.max(size.x, size.y) < 8)) box.union(plants.expandByScalar(0.35));
     if (box.isEmpty()) box.set(new THREE.Vector3(-1, -1, 0), new THREE.Vector3(1, 1, 1.5));
     box.expandByPoint(new THREE.Vector3(box.min.x, box.min.y, 0));
     return box;
-  }
-
-  /** Walls and pipes may reach far beyond the plants. */
-  private plantBox(all: THREE.Box3): THREE.Box3 {
-    const plants = this.trueFruits.box();
-    return plants.isEmpty() ? all : plants.expandByScalar(0.35).intersect(all);
   }
 
   private paint(palette: Palette): void {
     this.stage.setBackground(palette.background);
     this.mapUniforms.colorA.value.set(palette.voxel);
     this.mapUniforms.colorB.value.set(palette.roi);
+    this.mapUniforms.colorC.value.set(palette.floorVoxel);
     this.targetUniforms.colorA.value.set(palette.roi);
     this.targetUniforms.colorB.value.set(palette.occupied);
     this.targetUniforms.colorC.value.set(palette.border);
@@ -204,7 +198,8 @@ export class World {
     this.paths.planned.visible = on("planned");
     this.paths.driven.visible = on("driven");
     this.fruits.group.visible = on("fruits");
-    this.truth.group.visible = on("plants");
+    this.truth.plants.visible = on("plants");
+    this.truth.around.visible = on("around");
     this.trueFruits.group.visible = on("trueFruits");
     this.marks.group.visible = on("views");
     this.boxes.group.visible = on("boxes");
@@ -220,10 +215,39 @@ export class World {
     this.mapUniforms.pixels.value = pixels;
     this.targetUniforms.pixels.value = pixels;
     this.graph.setPixels(pixels, renderer.getPixelRatio());
-    const size = this.mapUniforms.size.value;
-    // Cubes where a voxel is larger than about five pixels.
-    const more = this.map.update(camera, (size * pixels) / 5);
-    const moreTargets = this.layers.isOn("frontiers") && this.targets.update(camera, 0);
+    // Pixels a voxel has at one metre. Cubes where it is larger than five, coarse where it is hardly one.
+    const voxel = this.mapUniforms.size.value * pixels;
+    const detail = {
+      cubesWithin: voxel / 5,
+      coarseBeyond: voxel / this.stage.cellPixels,
+      budget_ms: Math.max(12, this.stage.frame_ms),
+    };
+    this.truth.setCoarse(this.stage.coarse);
+    const more = this.map.update(camera, detail);
+    const moreTargets = this.layers.isOn("frontiers") && this.targets.update(camera, detail);
     return more || moreTargets;
   }
+}
+
+/** How far away the camera must be to have all of a box in the picture, looking at its middle. */
+function fittingDistance(
+  box: THREE.Box3,
+  center: THREE.Vector3,
+  direction: THREE.Vector3,
+  camera: THREE.PerspectiveCamera,
+): number {
+  const right = new THREE.Vector3(0, 0, 1).cross(direction).normalize();
+  const up = direction.clone().cross(right);
+  const slope = Math.tan((camera.fov * Math.PI) / 360);
+  let distance = 0.5;
+  for (let i = 0; i < 8; ++i) {
+    const corner = new THREE.Vector3(
+      i & 1 ? box.max.x : box.min.x,
+      i & 2 ? box.max.y : box.min.y,
+      i & 4 ? box.max.z : box.min.z,
+    ).sub(center);
+    const across = Math.max(Math.abs(corner.dot(right)) / (slope * camera.aspect), Math.abs(corner.dot(up)) / slope);
+    distance = Math.max(distance, across + corner.dot(direction));
+  }
+  return 1.02 * distance;
 }
