@@ -1,4 +1,5 @@
 import type { Fruit } from "../data/messages.ts";
+import { fruitCss } from "../fruit_color.ts";
 import type { Actions, Moment } from "../moment.ts";
 import { percent } from "../ui/format.ts";
 import { el, fill } from "../ui/dom.ts";
@@ -6,7 +7,7 @@ import { Rows } from "../ui/rows.ts";
 
 export function swatch(fruit: Fruit): HTMLElement {
   const patch = el("i", { class: "swatch" });
-  patch.style.background = `rgb(${fruit.color.map((c) => Math.round(Math.min(255, Math.max(0, c)))).join()})`;
+  patch.style.background = fruitCss(fruit);
   return patch;
 }
 

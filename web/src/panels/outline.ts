@@ -1,5 +1,6 @@
 import { transform } from "../data/kinematics.ts";
 import type { Fruit } from "../data/messages.ts";
+import { fruitCss } from "../fruit_color.ts";
 import { fruitPose } from "../scene/fruit_shapes.ts";
 import { surface } from "../scene/superellipsoid.ts";
 
@@ -41,7 +42,6 @@ export function outlines(fruit: Fruit): HTMLElement {
   const reach = Math.max(0.02, 1.15 * Math.max(...fruit.semiAxes));
   const holder = document.createElement("div");
   holder.className = "outlines";
-  const color = `rgb(${fruit.color.map((c) => Math.round(Math.min(255, Math.max(0, c)))).join()})`;
   for (const [name, right, up] of [["front", 0, 2], ["side", 1, 2], ["above", 0, 1]] as const) {
     const drawing = svg("svg", { viewBox: "-50 -50 100 100", role: "img", "aria-label": `Shape, ${name}` });
     const flat = world.map((p): [number, number] => [(48 * p[right]) / reach, (-48 * p[up]) / reach]);
@@ -49,7 +49,7 @@ export function outlines(fruit: Fruit): HTMLElement {
     drawing.append(
       svg("line", { x1: -48, x2: 48, y1: 0, y2: 0, class: "cross" }),
       svg("line", { y1: -48, y2: 48, x1: 0, x2: 0, class: "cross" }),
-      svg("polygon", { points: corners.join(" "), fill: color, "fill-opacity": 0.25 + 0.6 * fruit.confidence, class: "shape" }),
+      svg("polygon", { points: corners.join(" "), fill: fruitCss(fruit), "fill-opacity": 0.25 + 0.6 * fruit.confidence, class: "shape" }),
       svg("line", { x1: -48, x2: -48 + (48 * 0.02) / reach, y1: 47, y2: 47, class: "rule" }),
     );
     const figure = document.createElement("figure");

@@ -47,9 +47,7 @@ class TimePlot {
   }
 
   private placeVeil(): void {
-    if (!this.plot) return;
-    const left = Math.round(this.plot.valToPos(this.now, "x"));
-    this.veil.style.transform = `translateX(${Math.max(0, left)}px)`;
+    this.veil.style.left = `${(100 * Math.min(this.now, this.end)) / this.end}%`;
   }
 
   /** Another theme. */
@@ -87,7 +85,7 @@ class TimePlot {
         scales: { x: { time: false, range: () => [0, this.end] }, ...scales },
         axes: [
           { ...axis, size: 20, values: (_, ticks) => ticks.map(shortClock), space: 60, incrs: kTimeSteps },
-          { ...axis, size: 40, values: (_, ticks) => ticks.map(brief), space: 24, ...axes[0] },
+          { ...axis, size: 40, values: (_, ticks) => ticks.map(brief), filter: (_, ticks) => ticks, space: 24, ...axes[0] },
         ],
         series: [{}, ...series],
         hooks: { setCursor: [(u) => this.read(u)] },

@@ -3,6 +3,7 @@ import { compose, fromRollPitchYaw, identity } from "../data/kinematics.ts";
 import type { Pose } from "../data/fields.ts";
 import type { History } from "../data/history.ts";
 import type { Fruit } from "../data/messages.ts";
+import { fruitColor } from "../fruit_color.ts";
 import type { Palette } from "../theme.ts";
 import { matrixOf } from "./matrices.ts";
 import { surface } from "./superellipsoid.ts";
@@ -66,7 +67,7 @@ export class FruitShapes {
     geometry.setAttribute("position", new THREE.BufferAttribute(points, 3));
     geometry.setIndex(triangles);
     geometry.computeVertexNormals();
-    const [r, g, b] = fruit.color.map((c) => Math.min(1, Math.max(0, c / 255)));
+    const [r, g, b] = fruitColor(fruit).map((c) => c / 255);
     const sure = Math.min(1, Math.max(0, fruit.confidence));
     const mesh = new THREE.Mesh(
       geometry,

@@ -7,7 +7,10 @@ import { Trail } from "../data/trail.ts";
 import type { Timeline } from "../data/timeline.ts";
 import type { Palette } from "../theme.ts";
 
-/** The way the camera went, and the way it is to go. */
+/** Of the way driven in one segment, so many pieces are drawn at most. */
+const kPieces = 20000;
+
+/** The way the camera went in this segment, and the way it is to go. */
 export class Paths {
   readonly driven = new THREE.Group();
   readonly planned = new THREE.Group();
@@ -22,6 +25,8 @@ export class Paths {
   private drivenLine = line([], this.drivenMaterial);
   private plannedLine = line([], this.plannedMaterial);
   private plannedAs = "";
+  /** The first piece that is drawn: of the present segment. */
+  private first = 0;
 
   constructor() {
     this.driven.add(this.drivenLine);
@@ -29,10 +34,14 @@ export class Paths {
   }
 
   show(timeline: Timeline, t: number, step: number): void {
-    if (this.trail.extend(timeline)) {
-      this.drivenLine = replace(this.driven, this.drivenLine, this.trail.points, this.drivenMaterial);
+    const grown = this.trail.extend(timeline);
+    const first = this.trail.countAt(timeline.segmentAt(t)?.t ?? 0);
+    if (grown || first !== this.first) {
+      this.first = first;
+      const points = this.trail.points.slice(6 * first, 6 * (first + kPieces));
+      this.drivenLine = replace(this.driven, this.drivenLine, points, this.drivenMaterial);
     }
-    const count = this.trail.countAt(t);
+    const count = this.trail.countAt(t) - first;
     this.drivenLine.geometry.instanceCount = count;
     this.drivenLine.visible = count > 0;
     this.showPlan(timeline, t, step);

@@ -229,7 +229,7 @@ export class World {
   }
 }
 
-/** How far away the camera must be to have all of a box in the picture, looking at its middle. */
+/** How far away the camera must be to have most of a box in the picture: its corners are empty. */
 function fittingDistance(
   box: THREE.Box3,
   center: THREE.Vector3,
@@ -249,5 +249,5 @@ function fittingDistance(
     const across = Math.max(Math.abs(corner.dot(right)) / (slope * camera.aspect), Math.abs(corner.dot(up)) / slope);
     distance = Math.max(distance, across + corner.dot(direction));
   }
-  return 1.02 * distance;
+  return 0.8 * distance;
 }

@@ -23,9 +23,10 @@ export function whole(value: number | null | undefined): string {
 export function brief(value: number | null | undefined): string {
   if (value === null || value === undefined) return "–";
   const size = Math.abs(value);
+  if (size >= 1e7) return `${(value / 1e6).toFixed(0)}M`;
   if (size >= 1e6) return `${(value / 1e6).toFixed(1)}M`;
   if (size >= 1e4) return `${(value / 1e3).toFixed(0)}k`;
-  if (size >= 1e3) return `${(value / 1e3).toFixed(1)}k`;
+  if (size >= 1e3) return `${Number((value / 1e3).toFixed(1))}k`;
   return kWhole.format(value);
 }
 

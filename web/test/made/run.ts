@@ -44,6 +44,7 @@ class Maker {
   private readonly occupied = new Map<number, Uint8Array>();
   private readonly seen = new Map<number, number>();
   private t = 0;
+  private at: Configuration = { q: kHome, travel: 0, lift: 0.3 };
   private view = 0;
   private node = 0;
 
@@ -93,6 +94,7 @@ class Maker {
     const travel = 0.8 * Math.floor(s / 2);
     const turn = side === 0 ? 0 : Math.PI;
     const home: Configuration = { q: [...kHome.slice(0, 4), turn, 0], travel, lift: 0.3 };
+    if (s > 0) this.motion(s - 1, this.at, home.q as number[], "home");
     if (s > 0) this.frames.push(frame({ type: "trolley", t_s: this.t, duration_s: 2, travel, lift: 0.3 }));
     this.t += s > 0 ? 2 : 0;
     const y = -1.9 + travel;
@@ -104,16 +106,16 @@ class Maker {
       }), // prettier-ignore
       frame({ type: "log", t_s: this.t, level: "info", text: `looking at <b>side ${side + 1}</b> & its "fruits"` }),
     );
-    let at = home;
-    this.look(s, at, "home", null);
+    this.at = home;
+    this.look(s, home, "home", null);
     for (let v = 1; v < this.options.views; ++v) {
       const q = [0, 1, 2, 3, 4, 5].map((j) => (home.q[j] ?? 0) + this.around([0.7, 0.35, 0.4, 0.5, 0.5, 0.2][j]));
       const planning = 0.1 + 0.2 * this.next();
       this.t += planning;
-      this.plan(s, v === 1, at);
-      const moving = this.motion(s, at, q);
-      at = { q, travel, lift: 0.3 };
-      this.look(s, at, kKinds[Math.floor(3 * this.next())], Math.round(200 + 6000 * this.next()), planning, moving);
+      this.plan(s, v === 1, this.at);
+      const moving = this.motion(s, this.at, q, "view");
+      this.at = { q, travel, lift: 0.3 };
+      this.look(s, this.at, kKinds[Math.floor(3 * this.next())], Math.round(200 + 6000 * this.next()), planning, moving);
     }
     this.frames.push(
       frame({
@@ -125,7 +127,7 @@ class Maker {
     );
   }
 
-  private motion(segment: number, from: Configuration, to: number[]): number {
+  private motion(segment: number, from: Configuration, to: number[], kind: string): number {
     const duration = 1 + this.next();
     const points = Math.ceil(duration * 20) + 1;
     const positions = new Float32Array(6 * points);
@@ -136,7 +138,7 @@ class Maker {
     }
     const rate = (points - 1) / duration;
     this.frames.push(
-      frame({ type: "motion", kind: "view", segment, t_s: this.t, duration_s: duration, rate_hz: rate, joints: 6, points }, positions),
+      frame({ type: "motion", kind, segment, t_s: this.t, duration_s: duration, rate_hz: rate, joints: 6, points }, positions),
     );
     this.t += duration;
     const touched = this.next() < 0.08;
