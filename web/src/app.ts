@@ -27,7 +27,8 @@ export class App implements Actions {
   private readonly panels: Panels;
   private connection: Connection;
   private connectionState: ConnectionState = { is: "connecting" };
-  private damaged = 0;
+  /** Nothing has come yet, over any connection. */
+  private first = true;
   /** Where the link wants to go, until that has come. */
   private goal: Place | null = parsePlace(location.hash);
   private awake = false;
@@ -65,6 +66,10 @@ export class App implements Actions {
   /** What a live page may send. */
   wire(): Connection {
     return this.connection;
+  }
+
+  get connected(): boolean {
+    return this.connectionState.is === "open";
   }
 
   get live(): boolean {
@@ -139,7 +144,6 @@ export class App implements Actions {
   private begin(): void {
     this.timeline = new Timeline();
     this.store.timeline = this.timeline;
-    this.damaged = 0;
     this.shownChanges = -1;
   }
 
@@ -147,12 +151,13 @@ export class App implements Actions {
     this.timeline.append(message);
     if (message.type === "hello") {
       this.scene?.load(this.timeline);
-      if (message.live && !this.goal?.t && this.goal?.view === undefined) this.playback.follow = true;
+      if (message.live && this.first && !this.hasGoal()) this.playback.follow = true;
+      this.first = false;
       this.sayState();
     }
     if (message.type === "end") {
       this.sayState();
-      if (this.playback.follow) this.playback.follow = false;
+      if (this.playback.follow) this.playback.seek(this.timeline.duration, this.timeline);
     }
     this.playback.arrived(this.timeline);
     this.reachGoal();
@@ -160,10 +165,13 @@ export class App implements Actions {
   }
 
   private takeDamaged(why: string): void {
-    ++this.damaged;
     console.warn(why);
     this.timeline.append({ type: "log", t: this.timeline.newest, level: "notice", text: `A message could not be read: ${why}` });
     this.wake();
+  }
+
+  private hasGoal(): boolean {
+    return this.goal?.t !== undefined || this.goal?.view !== undefined;
   }
 
   /** Goes where the link says, once that is there. */
@@ -194,7 +202,7 @@ export class App implements Actions {
 
   private tick(now: number): void {
     this.awake = false;
-    const more = this.playback.advance(Math.min(0.5, (now - this.lastTick) / 1000), this.timeline);
+    const more = this.playback.advance(Math.min(0.5, Math.max(0, now - this.lastTick) / 1000), this.timeline);
     this.lastTick = now;
     const { t } = this.playback;
     const moment = this.moment();

@@ -25,7 +25,7 @@ export class Controls {
       el(
         "div",
         { class: "buttons" },
-        word("Go on", "Leave it running", close),
+        word("Keep it running", "Nothing happens", close),
         word("Stop the mission", "End the run", () => (connection().steer("stop"), close()), "danger"),
       ),
     );

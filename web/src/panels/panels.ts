@@ -104,7 +104,7 @@ export class Panels {
     this.header.update(moment);
     this.camera.update(moment, selection);
     this.transport.update(moment, live);
-    this.controls.update(moment, true);
+    this.controls.update(moment, this.app.connected);
     this.layerPanel.update();
     this.tabs.element.hidden = selection !== null;
     for (const page of this.pages) page.update(moment);

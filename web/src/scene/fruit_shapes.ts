@@ -17,7 +17,7 @@ export function fruitPose(fruit: Fruit): Pose {
 
 interface Shown {
   fruit: Fruit;
-  mesh: THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>;
+  mesh: THREE.Mesh<THREE.BufferGeometry, THREE.MeshLambertMaterial>;
   rim: THREE.Mesh<THREE.BufferGeometry, THREE.MeshBasicMaterial>;
 }
 
@@ -27,8 +27,13 @@ export class FruitShapes {
   private readonly shown = new Map<number, Shown>();
   private readonly rimMaterial = new THREE.MeshBasicMaterial({ side: THREE.BackSide });
   private readonly chosenMaterial = new THREE.MeshBasicMaterial({ side: THREE.BackSide });
+  private readonly rims = new THREE.Group();
   private step = -1;
   private selected = -1;
+
+  constructor() {
+    this.group.add(this.rims);
+  }
 
   get fruits(): Fruit[] {
     return [...this.shown.values()].map((s) => s.fruit);
@@ -56,13 +61,18 @@ export class FruitShapes {
     this.chosenMaterial.color.set(palette.accent);
   }
 
+  /** Without outlines. */
+  setCoarse(coarse: boolean): void {
+    this.rims.visible = !coarse;
+  }
+
   reset(): void {
     for (const id of [...this.shown.keys()]) this.drop(id);
     this.step = -1;
   }
 
   private add(fruit: Fruit): void {
-    const { points, triangles } = surface(fruit);
+    const { points, triangles } = surface(fruit, 12, 20);
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(points, 3));
     geometry.setIndex(triangles);
@@ -71,9 +81,8 @@ export class FruitShapes {
     const sure = Math.min(1, Math.max(0, fruit.confidence));
     const mesh = new THREE.Mesh(
       geometry,
-      new THREE.MeshStandardMaterial({
+      new THREE.MeshLambertMaterial({
         color: new THREE.Color().setRGB(r, g, b, THREE.SRGBColorSpace),
-        roughness: 0.45,
         transparent: sure < 0.95,
         opacity: 0.25 + 0.75 * sure,
       }),
@@ -85,14 +94,16 @@ export class FruitShapes {
     rim.matrix.copy(T).scale(new THREE.Vector3(a, b2, c));
     mesh.matrix.copy(T);
     for (const object of [mesh, rim]) object.matrixAutoUpdate = false;
-    this.group.add(mesh, rim);
+    this.group.add(mesh);
+    this.rims.add(rim);
     this.shown.set(fruit.id, { fruit, mesh, rim });
   }
 
   private drop(id: number): void {
     const shown = this.shown.get(id);
     if (!shown) return;
-    this.group.remove(shown.mesh, shown.rim);
+    this.group.remove(shown.mesh);
+    this.rims.remove(shown.rim);
     shown.mesh.geometry.dispose();
     shown.mesh.material.dispose();
     this.shown.delete(id);

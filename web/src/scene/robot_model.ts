@@ -9,9 +9,9 @@ export class RobotModel {
   readonly group = new THREE.Group();
   private robot: Robot | null = null;
   private links: THREE.Group[] = [];
-  private readonly light = new THREE.MeshStandardMaterial({ roughness: 0.62, metalness: 0.08 });
-  private readonly dark = new THREE.MeshStandardMaterial({ roughness: 0.7, metalness: 0.1 });
-  private readonly lens = new THREE.MeshStandardMaterial({ roughness: 0.4, color: 0x20262a });
+  private readonly light = new THREE.MeshLambertMaterial();
+  private readonly dark = new THREE.MeshLambertMaterial();
+  private readonly lens = new THREE.MeshLambertMaterial({ color: 0x20262a });
 
   set(robot: Robot): void {
     this.robot = robot;

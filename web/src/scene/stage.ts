@@ -11,7 +11,7 @@ const kGoodFrame_ms = 60;
 const kCoarsest = 0.5;
 
 /** Pixels of the largest cells of the map that are drawn for voxels. */
-const kLargestCell = 4;
+const kLargestCell = 3;
 
 /**
  * Canvas, camera and lights. Draws only when something changed; on slow machines it draws coarser
@@ -45,7 +45,12 @@ export class Stage {
     this.slow = isSoftware();
     if (this.slow) this.coarseness = kLargestCell;
     const canvas = document.createElement("canvas");
-    const context = canvas.getContext("webgl2", { antialias: !this.slow, powerPreference: "high-performance" });
+    const context = canvas.getContext("webgl2", {
+      alpha: false,
+      stencil: false,
+      antialias: !this.slow,
+      powerPreference: "high-performance",
+    });
     if (!context) throw new Error("no WebGL 2");
     this.renderer = new THREE.WebGLRenderer({ canvas, context });
     canvas.tabIndex = 0;

@@ -223,6 +223,7 @@ export class World {
       budget_ms: Math.max(12, this.stage.frame_ms),
     };
     this.truth.setCoarse(this.stage.coarse);
+    this.fruits.setCoarse(this.stage.coarse);
     const more = this.map.update(camera, detail);
     const moreTargets = this.layers.isOn("frontiers") && this.targets.update(camera, detail);
     return more || moreTargets;
