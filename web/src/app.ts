@@ -41,7 +41,7 @@ export class App implements Actions {
     this.panels = new Panels(root, this);
     this.scene = openScene(this.panels.sceneHolder, this);
     if (!this.scene) this.panels.sayNoScene();
-    this.panels.camera.pair.onColor = (image) => this.scene?.setPicture(image);
+    this.panels.camera.pair.onColor = (image, view) => this.scene?.setPicture(image, this.timeline.view(view));
     this.connection = new Connection(socketUrl(location), {
       begins: () => this.begin(),
       message: (message) => this.take(message),
@@ -121,6 +121,8 @@ export class App implements Actions {
 
   toggle(): void {
     this.playback.toggle(this.timeline);
+    // What the camera sees goes on with the run.
+    if (this.playback.playing && this.selection?.is === "view") this.clearSelection();
     if (!this.playback.playing) this.writePlace();
   }
 

@@ -11,7 +11,7 @@ export class PicturePair {
   readonly element: HTMLElement;
   overlay = true;
   /** After a picture was drawn. */
-  onColor: (image: ImageBitmap | null) => void = () => {};
+  onColor: (image: ImageBitmap | null, view: number) => void = () => {};
   private readonly color = el("canvas", { role: "img", label: "What the camera sees" });
   private readonly depth = el("canvas", { role: "img", label: "Depth" });
   private readonly near = el("span");
@@ -61,7 +61,7 @@ export class PicturePair {
       setText(this.near, pictures?.depth ? `${pictures.depth.min.toFixed(2)} m` : "near");
       setText(this.far, pictures?.depth ? `${pictures.depth.max.toFixed(2)} m` : "far");
       this.shown = as;
-      this.onColor(color);
+      this.onColor(color, at);
     } finally {
       this.busy = false;
     }

@@ -3,7 +3,7 @@ import type { Timeline } from "../data/timeline.ts";
 import type { Actions, Moment, Selection } from "../moment.ts";
 import { type Sighting, sightings } from "../pictures/sightings.ts";
 import type { PictureStore } from "../pictures/picture_store.ts";
-import { centimetres, clock, kindName, percent, seconds, whole } from "../ui/format.ts";
+import { clock, kindName, percent, seconds, whole } from "../ui/format.ts";
 import { el, fill, setText } from "../ui/dom.ts";
 import { icon } from "../ui/icons.ts";
 import { swatch } from "./fruit_list.ts";
@@ -142,10 +142,10 @@ function fruitFigures(fruit: Fruit): HTMLElement {
     ["Ripeness", fruit.ripeness || "–"],
     ["Size", fruit.semiAxes.map((a) => (200 * a).toFixed(1)).join(" × ") + " cm"],
     ["Centre", fruit.centre.map((c) => c.toFixed(2)).join(", ") + " m"],
-    ["Height", centimetres(fruit.centre[2])],
     ["Surface seen", percent(fruit.seenShare)],
     ["Points", whole(fruit.points)],
     ["Views", whole(fruit.views)],
-    ["First, last seen", `${clock(fruit.first)}, ${clock(fruit.last)}`],
+    ["First seen", clock(fruit.first)],
+    ["Last seen", clock(fruit.last)],
   ]);
 }

@@ -61,7 +61,7 @@ export class Panels {
     this.pages = [plots, work, views, fruits, log];
     this.tabs = new Tabs(
       [
-        { name: "Progress", element: el("div", { class: "progress" }, plots.element, work.element) },
+        { name: "Progress", element: el("div", { class: "progress", tabindex: 0 }, plots.element, work.element) },
         { name: "Views", element: views.element },
         { name: "Fruits", element: fruits.element },
         { name: "Log", element: log.element },
@@ -84,7 +84,7 @@ export class Panels {
       ),
       this.notice.element,
     );
-    const side = el("div", { class: "side" }, this.camera.element, this.tabs.element, this.detail.element);
+    const side = el("aside", { class: "side", label: "What the robot sees and found" }, this.camera.element, this.tabs.element, this.detail.element);
     root.append(this.header.element, this.sceneHolder, side, this.transport.element, this.help.element, this.pictures.element);
   }
 

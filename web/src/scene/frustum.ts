@@ -27,77 +27,91 @@ export function project(camera: Camera, p_camera: ArrayLike<number>): { u: numbe
   };
 }
 
-/** What the camera sees now: a pyramid, and the picture at its base where there is one. */
+/** A camera's pyramid of sight. */
 export class Frustum {
   readonly group = new THREE.Group();
   private readonly lines: THREE.LineSegments;
-  private readonly sheet: THREE.Mesh;
-  private readonly lineMaterial = new THREE.LineBasicMaterial();
-  private readonly sheetMaterial = new THREE.MeshBasicMaterial({ side: THREE.DoubleSide, transparent: true, opacity: 0.92 });
-  private readonly texture: THREE.CanvasTexture;
-  private readonly canvas = document.createElement("canvas");
-  private camera: Camera | null = null;
+  private readonly material = new THREE.LineBasicMaterial();
 
   /** The base is so far from the camera. */
   constructor(private readonly depth: number) {
     this.group.matrixAutoUpdate = false;
-    this.lines = new THREE.LineSegments(new THREE.BufferGeometry(), this.lineMaterial);
-    this.texture = new THREE.CanvasTexture(this.canvas);
-    this.texture.colorSpace = THREE.SRGBColorSpace;
-    this.texture.generateMipmaps = false;
-    this.texture.minFilter = THREE.LinearFilter;
-    this.sheet = new THREE.Mesh(new THREE.BufferGeometry(), this.sheetMaterial);
-    this.sheet.visible = false;
-    this.group.add(this.lines, this.sheet);
+    this.lines = new THREE.LineSegments(new THREE.BufferGeometry(), this.material);
+    this.group.add(this.lines);
   }
 
   set(camera: Camera): void {
-    this.camera = camera;
-    const corners = cornerRays(camera).map((ray) => ray.map((x) => x * this.depth));
+    const corners = cornersAt(camera, this.depth);
     const points: number[] = [];
     corners.forEach((corner, i) => points.push(0, 0, 0, ...corner, ...corner, ...corners[(i + 1) % 4]));
     this.lines.geometry.setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
     this.lines.geometry.computeBoundingSphere();
-    const sheet = this.sheet.geometry;
-    sheet.setAttribute("position", new THREE.Float32BufferAttribute(corners.flat(), 3));
-    sheet.setAttribute("uv", new THREE.Float32BufferAttribute([0, 1, 1, 1, 1, 0, 0, 0], 2));
-    sheet.setIndex([0, 1, 2, 0, 2, 3]);
-    sheet.computeBoundingSphere();
-  }
-
-  /** The picture at the base; null: none. */
-  picture(image: CanvasImageSource | null, width = 0, height = 0): void {
-    this.sheet.visible = image !== null;
-    if (!image) return;
-    if (this.canvas.width !== width || this.canvas.height !== height) {
-      this.canvas.width = width;
-      this.canvas.height = height;
-      this.texture.dispose();
-    }
-    this.canvas.getContext("2d")?.drawImage(image, 0, 0);
-    this.sheetMaterial.map = this.texture;
-    this.sheetMaterial.needsUpdate = true;
-    this.texture.needsUpdate = true;
   }
 
   move(T_world_camera: Pose): void {
-    this.group.matrix.copy(matrixOf(T_world_camera));
-    this.group.matrixWorldNeedsUpdate = true;
+    moveTo(this.group, T_world_camera);
   }
 
-  paint(palette: Palette, color: string = palette.ink): void {
-    this.lineMaterial.color.set(color);
+  paint(_palette: Palette, color: string = _palette.ink): void {
+    this.material.color.set(color);
+  }
+}
+
+/** A picture, hung up where it was taken. */
+export class PictureSheet {
+  readonly group = new THREE.Group();
+  private readonly material = new THREE.MeshBasicMaterial({ side: THREE.DoubleSide, transparent: true, opacity: 0.92 });
+  private readonly mesh = new THREE.Mesh(new THREE.BufferGeometry(), this.material);
+  private readonly canvas = document.createElement("canvas");
+  private readonly texture = new THREE.CanvasTexture(this.canvas);
+
+  /** So far before the camera. */
+  constructor(private readonly depth: number) {
+    this.group.matrixAutoUpdate = false;
+    this.texture.colorSpace = THREE.SRGBColorSpace;
+    this.texture.generateMipmaps = false;
+    this.texture.minFilter = THREE.LinearFilter;
+    this.material.map = this.texture;
+    this.mesh.visible = false;
+    this.group.add(this.mesh);
   }
 
-  /** A place behind the camera to look over its shoulder from, and what to look at. */
-  shoulder(T_world_camera: Pose): { position: THREE.Vector3; target: THREE.Vector3 } {
-    return {
-      position: new THREE.Vector3(...transform(T_world_camera, [0.25, -0.55, -1.1])),
-      target: new THREE.Vector3(...transform(T_world_camera, [0, 0, 0.55])),
-    };
+  set(camera: Camera): void {
+    const { geometry } = this.mesh;
+    geometry.setAttribute("position", new THREE.Float32BufferAttribute(cornersAt(camera, this.depth).flat(), 3));
+    geometry.setAttribute("uv", new THREE.Float32BufferAttribute([0, 1, 1, 1, 1, 0, 0, 0], 2));
+    geometry.setIndex([0, 1, 2, 0, 2, 3]);
+    geometry.computeBoundingSphere();
   }
 
-  get ready(): boolean {
-    return this.camera !== null;
+  /** Null: no picture. */
+  show(image: ImageBitmap | null, T_world_camera: Pose): void {
+    this.mesh.visible = image !== null;
+    if (!image) return;
+    if (this.canvas.width !== image.width || this.canvas.height !== image.height) {
+      this.canvas.width = image.width;
+      this.canvas.height = image.height;
+      this.texture.dispose();
+    }
+    this.canvas.getContext("2d")?.drawImage(image, 0, 0);
+    this.texture.needsUpdate = true;
+    moveTo(this.group, T_world_camera);
   }
+}
+
+/** A place behind the camera to look over its shoulder from, and what to look at. */
+export function shoulder(T_world_camera: Pose): { position: THREE.Vector3; target: THREE.Vector3 } {
+  return {
+    position: new THREE.Vector3(...transform(T_world_camera, [0.14, -0.3, -0.5])),
+    target: new THREE.Vector3(...transform(T_world_camera, [0, 0.02, 0.6])),
+  };
+}
+
+function cornersAt(camera: Camera, depth: number): number[][] {
+  return cornerRays(camera).map((ray) => ray.map((x) => x * depth));
+}
+
+function moveTo(group: THREE.Group, T: Pose): void {
+  group.matrix.copy(matrixOf(T));
+  group.matrixWorldNeedsUpdate = true;
 }

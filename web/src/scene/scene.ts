@@ -46,9 +46,9 @@ export class Scene {
     }
   }
 
-  /** What the camera saw last. */
-  setPicture(image: ImageBitmap | null): void {
-    this.world.frustum.picture(image, image?.width, image?.height);
+  /** What the camera saw in a view; null: there is no picture. */
+  setPicture(image: ImageBitmap | null, view: View | null): void {
+    if (view) this.world.sheet.show(image, view.T_world_camera);
     this.world.stage.ask();
   }
 

@@ -47,6 +47,7 @@ void pick(float flags, float height, out vec3 color, out float scale) {
   vec3 plant = mix(colorA * 0.8, colorA * 1.2, clamp(height / 2.2, 0.0, 1.0));
   color = roi ? colorB : mix(colorC, plant, smoothstep(0.0, 0.1, height));
 }
+float shaded(float height) { return mix(0.3, 1.0, smoothstep(0.0, 0.1, height)); }
 float light(vec3 n, vec3 toEye) {
   float l = length(n);
   if (l < 0.1) return 0.82;
@@ -82,7 +83,7 @@ void main() {
     vec4 eye = viewMatrix * world;
     gl_Position = projectionMatrix * eye;
     gl_PointSize = max(1.5, 1.25 * scale * size * pixels / -eye.z);
-    vColor = color * light(facing, normalize(cameraPosition - world.xyz));
+    vColor = color * mix(1.0, light(facing, normalize(cameraPosition - world.xyz)), shaded(world.z));
   }
 }`,
     fragmentShader: kFragment,
@@ -110,7 +111,8 @@ void main() {
     world.xyz += corner * size * 0.96 * scale;
     gl_Position = projectionMatrix * viewMatrix * world;
     toEye = normalize(toEye);
-    vColor = color * (0.45 * light(normal, toEye) + 0.55 * light(facing, toEye));
+    float lit = 0.45 * light(normal, toEye) + 0.55 * light(facing, toEye);
+    vColor = color * mix(1.0, lit, shaded(world.z));
   }
 }`,
     fragmentShader: kFragment,

@@ -6,7 +6,7 @@ import type { Layers } from "../layers.ts";
 import type { Palette, Theme } from "../theme.ts";
 import { BlockCloud } from "./block_cloud.ts";
 import { FruitShapes } from "./fruit_shapes.ts";
-import { Frustum } from "./frustum.ts";
+import { Frustum, PictureSheet, shoulder } from "./frustum.ts";
 import { GraphLines } from "./graph_lines.ts";
 import { Ground } from "./ground.ts";
 import { Paths } from "./paths.ts";
@@ -23,6 +23,7 @@ export class World {
   readonly robot = new RobotModel();
   readonly frustum = new Frustum(0.3);
   readonly chosenFrustum = new Frustum(0.4);
+  readonly sheet = new PictureSheet(0.3);
   readonly fruits = new FruitShapes();
   readonly graph = new GraphLines();
   readonly marks = new ViewMarks();
@@ -50,7 +51,7 @@ export class World {
       this.ground.group, this.truth.plants, this.truth.around, this.trueFruits.group, this.robot.group,
       this.map.group, this.targets.group, this.graph.group, this.paths.driven,
       this.paths.planned, this.fruits.group, this.marks.group, this.boxes.group,
-      this.frustum.group, this.chosenFrustum.group,
+      this.frustum.group, this.chosenFrustum.group, this.sheet.group,
     ); // prettier-ignore
     this.chosenFrustum.group.visible = false;
     theme.use((palette) => this.paint(palette));
@@ -85,7 +86,7 @@ export class World {
       const T = cameraPose(timeline.robot, at);
       this.frustum.move(T);
       if (this.follow) {
-        const { position, target } = this.frustum.shoulder(T);
+        const { position, target } = shoulder(T);
         this.stage.camera.position.copy(position);
         this.stage.controls.target.copy(target);
       }
@@ -139,6 +140,7 @@ export class World {
       this.robot.set(timeline.robot);
       this.frustum.set(timeline.robot.camera);
       this.chosenFrustum.set(timeline.robot.camera);
+      this.sheet.set(timeline.robot.camera);
       this.known.robot = true;
     }
     if (timeline.truth && !this.known.truth) {
@@ -191,6 +193,7 @@ export class World {
     const on = (id: Parameters<Layers["isOn"]>[0]) => this.layers.isOn(id);
     this.robot.group.visible = on("robot");
     this.frustum.group.visible = on("camera");
+    this.sheet.group.visible = on("camera");
     this.mapUniforms.shown.value.set(on("occupied") ? 1 : 0, on("roi") ? 1 : 0, 0);
     this.map.group.visible = on("occupied") || on("roi");
     this.targets.group.visible = on("frontiers");

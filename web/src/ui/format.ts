@@ -39,10 +39,6 @@ export function percent(share: number): string {
   return `${Math.round(100 * share)} %`;
 }
 
-export function centimetres(metres: number): string {
-  return `${(100 * metres).toFixed(1)} cm`;
-}
-
 const kKindNames: Record<string, string> = {
   home: "home",
   roi: "fruit",

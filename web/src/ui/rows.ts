@@ -53,6 +53,7 @@ export class Rows<T> {
       const index = first + i;
       row.style.top = `${index * this.height}px`;
       row.dataset.index = String(index);
+      row.classList.toggle("current", index === this.stick);
       this.draw(row, this.rows[index], index);
     }
   }

@@ -21,7 +21,7 @@ export class Tabs {
       );
     });
     const list = el("div", { class: "tabs", role: "tablist", label: "Panels" }, ...this.buttons);
-    this.element = el("section", { class: "card tabbed" }, list, ...pages.map((p) => p.element));
+    this.element = el("section", { class: "card tabbed", label: "Figures and lists" }, list, ...pages.map((p) => p.element));
     this.show(0);
   }
 
