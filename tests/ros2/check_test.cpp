@@ -265,7 +265,7 @@ TEST(Ros2Check, LooksAroundAreNearFreeAndDifferent) {
   const CollisionChecker checker(robot, {1.0, 0.0});
   const Configuration home = robot.home("side_1");
   const auto looks = looks_around(robot, checker, home);
-  ASSERT_GE(looks.size(), 10u);
+  ASSERT_GE(looks.size(), 8u);
   const Pose T_base_home = robot.T_base_camera(home);
   double turned = 0.0;
   for (const Configuration& look : looks) {
@@ -287,9 +287,12 @@ TEST(Ros2Check, WordsOfAnEstimate) {
   estimate.frames = {{0.003, 0.001, 500}, {0.004, 0.001, 500}};
   estimate.all = {0.0035, 0.001, 1000};
   Findings findings;
-  tell_hand_eye(estimate, 0.02, false, findings);
+  Pose T_frame_camera = Pose::Identity();
+  T_frame_camera.translation() = Vec3(0.1, 0.0, 0.0);
+  tell_hand_eye(estimate, {T_frame_camera, 0.02, false}, findings);
   EXPECT_SAID(findings, "wrong hand-eye: the camera sits 22.4 mm (+- 0.6)");
-  EXPECT_SAID(findings, "put translation [0.0100, 0.0000, -0.0200] m");
+  EXPECT_SAID(findings,
+              "camera_mounting: {xyz_m: [0.1100, 0.0000, -0.0200], rpy_deg: [0.00, 0.00, 0.00]}");
   EXPECT_SAID(findings, "ok time offset");
   EXPECT_SAID(findings,
               "disagree by 3.5 mm, with what was found by 1.0 mm; each, in mm: 3.0>1.0 "
@@ -298,7 +301,7 @@ TEST(Ros2Check, WordsOfAnEstimate) {
   estimate.time_offset_s = -0.05;
   estimate.hand_eye_known = estimate.hand_eye_wrong = false;
   Findings other;
-  tell_hand_eye(estimate, 0.02, false, other);
+  tell_hand_eye(estimate, {T_frame_camera, 0.02, false}, other);
   EXPECT_SAID(other,
               "too late by the clock of joint states: set ros2.camera.time_offset_s to -0.030");
   EXPECT_SAID(other, "notice hand-eye");
