@@ -2,8 +2,10 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "all_messages.h"
 #include "ball_scene.h"
 #include "canopeer/base/atomic_file.h"
+#include "canopeer/cdr/cdr.h"
 #include "canopeer/map/cmap_file.h"
 #include "canopeer/map/files/map_cloud.h"
 #include "canopeer/map/octomap_file.h"
@@ -22,8 +24,21 @@ constexpr char kPlyText[] =
     "float x\nproperty double y\nproperty short z\nproperty uchar red\nend_header\n2 1 2\n1 2 3 "
     "4\n";
 
+/// An empty message of each type, its number in front (cdr_fuzz.cpp).
+Expected<void> write_messages(const fs::path& folder) {
+  Expected<void> result;
+  std::string number(1, '\0');
+  ros::for_each_message([&](const auto& message) {
+    const ros::Payload payload = ros::to_cdr(message);
+    const std::string bytes = number + std::string(payload.begin(), payload.end());
+    if (result) result = write_file(folder / std::to_string(number[0]), bytes);
+    ++number[0];
+  });
+  return result;
+}
+
 bool write_all(const fs::path& root) {
-  for (const char* target : {"octomap", "cmap", "cloud", "png", "trajectory"}) {
+  for (const char* target : {"cdr", "octomap", "cmap", "cloud", "png", "trajectory"}) {
     fs::create_directories(root / target);
   }
   const VoxelMap map = BallScene::map(1, 1, 0.2);
@@ -31,6 +46,7 @@ bool write_all(const fs::path& root) {
   const std::string packed = std::string("\x16\0\0\0\x14\0\0\0\x13", 9) + twenty;
   DepthImage depth(7, 5, 1.0F);
   Expected<void> results[] = {
+      write_messages(root / "cdr"),
       write_ot(map, root / "octomap/full.ot"),
       write_roi_bt(map, root / "octomap/binary.bt"),
       write_cmap(map, root / "cmap/map.cmap"),

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what packages.txt lists and this machine lacks (Debian, Ubuntu). Quick and silent when nothing is missing.
-# In packages.txt `a|b` is the first of the two that the release has, and `a?` is installed when the release has it.
+# In packages.txt `a|b` is the first of the two that the release has, `a?` is installed when the release has it, and `a!c?` when
+# there is no command c either.
 # DEB_HOST_ARCH=arm64 asks for what another machine needs to compile for that one: its libraries, a compiler, an emulator.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -11,6 +12,11 @@ if [ "${DEB_HOST_ARCH:-}" = arm64 ]; then
   mapfile -t wanted < <(printf '%s\n' "${wanted[@]}" | sed -E 's/(^|\|)((lib|zlib)[^|?]*)/\1\2:arm64|\2/g')
   wanted+=(g++-aarch64-linux-gnu qemu-user)
 fi
+for i in "${!wanted[@]}"; do
+  [[ ${wanted[i]} == *\!* ]] || continue
+  command=${wanted[i]#*!}
+  if command -v "${command%\?}" >/dev/null; then unset "wanted[i]"; else wanted[i]=${wanted[i]%%!*}?; fi
+done
 mapfile -t names < <(printf '%s\n' "${wanted[@]}" | tr -d '?' | tr '|' '\n')
 installed=$(dpkg-query -W -f '${Package} ${Status}\n' "${names[@]}" 2>/dev/null | sed -n 's/ install ok installed$//p' || true)
 required=()

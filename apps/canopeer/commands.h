@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "canopeer/config/mission_file.h"
 #include "canopeer/import/world_import.h"
 #include "canopeer/run/run_registries.h"
 
@@ -16,6 +17,17 @@ struct MissionArguments {
   std::string path;
   std::vector<std::string> settings;  ///< "dotted.key=value"
   std::optional<std::uint64_t> seed;
+  Overrides ros2;  ///< settings said in ROS 2's way, before the others
+};
+
+/// What a page shows, and where it is served.
+struct ViewArguments {
+  std::string run;     ///< directory of a run; empty: the one that begins
+  bool view = false;   ///< serve the page while it runs
+  bool replay = true;  ///< write the replay beside the record
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 8765;
+  bool quiet = false;
 };
 
 struct RunArguments {
@@ -25,8 +37,11 @@ struct RunArguments {
   std::optional<double> time_per_segment_s;
   std::string compute_table;
   std::string site = "simulation";
+  ViewArguments view;
   int threads = 0;  ///< 0: all cores
   bool realtime = false;
+  bool dry_run = false;  ///< of a robot
+  bool confirm = false;  ///< of a robot
   std::string out;
   bool quiet = false;
   bool profile = false;
@@ -122,6 +137,7 @@ void bench(const BenchArguments& arguments);
 void calibrate(const CalibrateArguments& arguments);
 void doctor(const DoctorArguments& arguments);
 void report(const std::string& directory);
+void view(const ViewArguments& arguments);
 void scene_render(const SceneArguments& arguments);
 void scene_inspect(const SceneArguments& arguments);
 void scene_generate(const SceneArguments& arguments);

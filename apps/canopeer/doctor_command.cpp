@@ -11,6 +11,7 @@
 
 #include "canopeer/base/simd_level.h"
 #include "canopeer/run/run.h"
+#include "canopeer/view/view_page.h"
 #include "commands.h"
 #include "exit_status.h"
 #include "mission_arguments.h"
@@ -86,7 +87,9 @@ void doctor(const DoctorArguments& arguments) {
   line("processor", std::to_string(std::thread::hardware_concurrency()) + " cores, kernels for " +
                         simd_level_name(best_simd_level()));
   line("memory", memory_text());
-  line("optional parts", "none; all is built in");
+  line("live view", view_page().empty()
+                        ? "not built in: install Node (Debian: nodejs and npm) and build again"
+                        : "built in");
   line("files", shipped_data().string());
   line("missions", joined(shipped_missions()));
   line("compute table", own_table_text());

@@ -1,15 +1,33 @@
 #include "mission_arguments.h"
 
+#include <CLI/CLI.hpp>
+
 #include "exit_status.h"
 #include "fuel_caches.h"
 #include "robot_source.h"
+#ifdef CANOPEER_ROS2
+#include "ros2_words.h"
+#endif
 #include "shipped_data.h"
 
 namespace canopeer::app {
 
+void add_mission(CLI::App& command, MissionArguments& mission) {
+  command
+      .add_option("mission", mission.path,
+                  "Mission file (YAML), or the name of a shipped one, e.g. scenario_1")
+      ->required();
+  command.add_option("--seed", mission.seed, "Seed of everything random");
+  command
+      .add_option("--set", mission.settings, "Override a setting, dotted.key=value (repeatable)")
+      ->expected(1)
+      ->take_all();
+}
+
 StageRequest stage_request(const MissionArguments& arguments, const Overrides& extra) {
   StageRequest request;
   request.mission = mission_file_of(arguments.path);
+  request.overrides = arguments.ros2;
   for (const auto& setting : arguments.settings) {
     const auto equals = setting.find('=');
     if (equals == std::string::npos || equals == 0) {
@@ -29,9 +47,13 @@ StageRequest stage_request(const MissionArguments& arguments, const Overrides& e
 
 MissionFile load(const MissionArguments& arguments, const Overrides& extra) {
   const StageRequest request = stage_request(arguments, extra);
-  return value_or_stop(
+  MissionFile file = value_or_stop(
       load_mission(request.mission, request.overrides, request.table_dirs, *arguments.registries),
       kBadInput);
+#ifdef CANOPEER_ROS2
+  take_ros_domain(file);
+#endif
+  return file;
 }
 
 }  // namespace canopeer::app

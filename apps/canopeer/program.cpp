@@ -9,22 +9,16 @@
 #include "completion.h"
 #include "exit_status.h"
 #include "manual.h"
+#include "mission_arguments.h"
+#ifdef CANOPEER_ROS2
+#include "canopeer/ros2/ros2_site.h"
+#include "ros2_commands.h"
+#include "ros2_words.h"
+#endif
 #include "shipped_data.h"
 
 namespace canopeer::app {
 namespace {
-
-void add_mission(CLI::App& command, MissionArguments& mission) {
-  command
-      .add_option("mission", mission.path,
-                  "Mission file (YAML), or the name of a shipped one, e.g. scenario_1")
-      ->required();
-  command.add_option("--seed", mission.seed, "Seed of everything random");
-  command
-      .add_option("--set", mission.settings, "Override a setting, dotted.key=value (repeatable)")
-      ->expected(1)
-      ->take_all();
-}
 
 std::string comma_list(const std::vector<std::string>& names) {
   std::string list;
@@ -47,6 +41,17 @@ void add_run(CLI::App& app, RunArguments& arguments, const RunRegistries& regist
                       "What computing costs: default, reference, free, this-machine, or a file");
   command->add_flag("--realtime", arguments.realtime,
                     "On the wall clock, with worker threads, in place of simulated time");
+  command->add_flag("--view", arguments.view.view,
+                    "Serve a page that shows the run; its address is printed");
+  command->add_option("--view-port", arguments.view.port, "Port of the page (0: any)");
+  command->add_option(
+      "--view-bind", arguments.view.address,
+      "Address of the page; 0.0.0.0: other machines with the printed link may look");
+  command->add_flag("!--no-replay", arguments.view.replay, "Leave out what `canopeer view` needs");
+  command->add_flag("--dry-run", arguments.dry_run,
+                    "Site ros2: plan and tell, and never move (ros2.dry_run)");
+  command->add_flag("--confirm", arguments.confirm,
+                    "Site ros2: ask before every motion (ros2.confirm)");
   command->add_option("--out", arguments.out, "Directory for the results");
   command->add_flag("--quiet", arguments.quiet, "Print errors only");
   command->add_flag("--profile", arguments.profile, "Print where the wall time went");
@@ -107,6 +112,17 @@ void add_doctor(CLI::App& app, DoctorArguments& a) {
       "doctor", "Say what this machine and this program have, and try the smoke mission");
   command->add_flag("--quick", a.quick, "No self-test");
   command->callback([&a] { doctor(a); });
+}
+
+void add_view(CLI::App& app, ViewArguments& arguments) {
+  CLI::App* command = app.add_subcommand("view", "Show a run again in a browser, a killed one too");
+  command->add_option("run", arguments.run, "Directory of the run")->required();
+  command->add_option("--view-port", arguments.port, "Port of the page (0: any)");
+  command->add_option(
+      "--view-bind", arguments.address,
+      "Address of the page; 0.0.0.0: other machines with the printed link may look");
+  command->add_flag("--quiet", arguments.quiet, "Print the address only");
+  command->callback([&arguments] { view(arguments); });
 }
 
 void add_report(CLI::App& app, std::string& directory) {
@@ -304,6 +320,7 @@ int parse_and_run(int argc, char** argv, const RunRegistries& registries) {
   app.require_subcommand(1);
   RunArguments run_arguments;
   std::string report_directory;
+  ViewArguments view_arguments;
   SceneArguments scene_arguments;
   ImportArguments import_arguments;
   run_arguments.mission.registries = &registries;
@@ -316,6 +333,7 @@ int parse_and_run(int argc, char** argv, const RunRegistries& registries) {
   add_bench(app, bench_arguments);
   add_calibrate(app, calibrate_arguments);
   add_report(app, report_directory);
+  add_view(app, view_arguments);
   add_scene(app, scene_arguments, import_arguments);
   FruitFitArguments fruit_arguments;
   add_fruit(app, fruit_arguments);
@@ -323,6 +341,19 @@ int parse_and_run(int argc, char** argv, const RunRegistries& registries) {
   add_map(app, map_arguments);
   RobotCheckArguments robot_arguments;
   add_robot(app, robot_arguments);
+#ifdef CANOPEER_ROS2
+  Ros2Arguments ros2_arguments;
+  const ros::RosArguments ros_arguments = take_ros_arguments(argc, argv);
+  ros2_arguments.robot.node = ros_arguments.node.value_or(ros2_arguments.robot.node);
+  ros2_arguments.robot.mission.ros2 = ros2_settings(ros_arguments, ros2_arguments.robot.node);
+  run_arguments.mission.ros2 = ros2_settings(ros_arguments, Ros2Settings().node);
+  ros2_arguments.check.mission.ros2 = run_arguments.mission.ros2;
+  add_ros2(app, ros2_arguments, registries);
+  std::vector<std::string> words(ros_arguments.rest.rbegin(), ros_arguments.rest.rend() - 1);
+#else
+  std::vector<std::string> words(std::make_reverse_iterator(argv + argc),
+                                 std::make_reverse_iterator(argv + 1));
+#endif
   DoctorArguments doctor_arguments;
   doctor_arguments.registries = &registries;
   add_doctor(app, doctor_arguments);
@@ -338,7 +369,8 @@ int parse_and_run(int argc, char** argv, const RunRegistries& registries) {
     return kDone;
   }
   try {
-    app.parse(argc, argv);
+    app.name(argv[0]);
+    app.parse(std::move(words));
   } catch (const CLI::ParseError& error) {
     std::fflush(stdout);
     return app.exit(error) == 0 ? kDone : kBadInput;
@@ -351,8 +383,12 @@ int parse_and_run(int argc, char** argv, const RunRegistries& registries) {
 
 namespace canopeer {
 
-int run_program(int argc, char** argv, const RunRegistries& registries) {
+int run_program(int argc, char** argv, const RunRegistries& with) {
   app::open_standard_streams();
+  RunRegistries registries = with;
+#ifdef CANOPEER_ROS2
+  add_ros2_site(registries.sites);
+#endif
   try {
     const int status = app::parse_and_run(argc, argv, registries);
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;

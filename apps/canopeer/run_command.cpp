@@ -8,12 +8,15 @@
 #include "commands.h"
 #include "exit_status.h"
 #include "import_line.h"
+#include "live_view.h"
 #include "mission_arguments.h"
 #include "mission_progress.h"
 #include "stop_signal.h"
 
 namespace canopeer::app {
 namespace {
+
+constexpr const char* kRos2 = "ros2";
 
 Overrides overrides_of(const RunArguments& arguments) {
   Overrides o;
@@ -23,17 +26,38 @@ Overrides overrides_of(const RunArguments& arguments) {
     o.emplace_back("time_per_segment_s", std::to_string(*arguments.time_per_segment_s));
   }
   if (!arguments.compute_table.empty()) o.emplace_back("compute_table", arguments.compute_table);
+  if (arguments.dry_run) o.emplace_back("ros2.dry_run", "true");
+  if (arguments.confirm) o.emplace_back("ros2.confirm", "true");
   return o;
 }
 
+/// A dry run of a simulation would be none, and a program without ROS 2 knows no such site.
+void check_site(const RunArguments& arguments) {
+  if (arguments.site != kRos2 && (arguments.dry_run || arguments.confirm)) {
+    stop_with(kBadInput, {"--dry-run and --confirm are for a robot: --site ros2"});
+  }
+  const auto& sites = arguments.mission.registries->sites;
+  if (arguments.site == kRos2 && sites.one_line(kRos2).empty()) {
+    stop_with(kBadInput, {"this program was built without ROS 2; install libfastdds-dev (Debian "
+                          "12: libfastrtps-dev) and build it anew"});
+  }
+}
+
 std::unique_ptr<Run> compose(const RunArguments& arguments) {
+  check_site(arguments);
   ImportLine line(arguments.quiet);
-  StageRequest request = stage_request(arguments.mission, overrides_of(arguments));
+  const Overrides overrides = overrides_of(arguments);
+  StageRequest request = stage_request(arguments.mission, overrides);
   request.site = arguments.site;
   request.realtime = arguments.realtime;
   request.threads = arguments.threads;
   request.callbacks = callbacks_for_people(line, arguments.quiet);
-  return value_or_stop(Run::compose(request, *arguments.mission.registries, arguments.out),
+  request.callbacks.on_message = [](const std::string& text) {
+    std::fprintf(stderr, "canopeer: %s\n", text.c_str());
+  };
+  request.callbacks.stop_asked = [&stop = catch_stop_signals()] { return stop.load(); };
+  return value_or_stop(Run::compose(load(arguments.mission, overrides), request,
+                                    *arguments.mission.registries, arguments.out),
                        kBadInput);
 }
 
@@ -84,7 +108,10 @@ void print_lost_watchers(const Mission& mission) {
 void run(const RunArguments& arguments) {
   SignalSteering signals;
   const std::unique_ptr<Run> run = compose(arguments);
-  run->steer(signals);
+  SteeringTogether steering;
+  steering.add(signals);
+  const LiveView view(*run, steering, arguments.view);
+  run->steer(steering);
   run->watch(std::make_shared<MissionProgress>(arguments.quiet), {.name = "the progress bar"});
   value_or_stop(run->begin(), kFailed);
   while (run->step()) {
@@ -94,6 +121,7 @@ void run(const RunArguments& arguments) {
   if (summary && !arguments.quiet) print_summary(*summary, run->out());
   if (summary && arguments.profile) print_profile(run->mission().timer(), summary->wall_time_s);
   std::fflush(stdout);
+  view.stay(arguments.quiet);
   // What ended the run is said first: why results cannot be written may follow from it.
   if (!run->outcome() && !summary) {
     stop_with(kFailed, {run->outcome().error().message + "; then " + summary.error().message});

@@ -44,6 +44,7 @@ constexpr HeaderOrigin kOrigins[] = {
     {"fmt/", "libfmt-dev"},
     {"yaml-cpp/", "libyaml-cpp-dev"},
     {"CLI/", "libcli11-dev"},
+    {"boost/", "libboost-dev"},
     {"nlohmann/", "nlohmann-json3-dev"},
     {"tinyxml2.h", "libtinyxml2-dev"},
     {"png.h", "libpng-dev"},
@@ -57,6 +58,9 @@ constexpr HeaderOrigin kOrigins[] = {
     {"stb/", "libstb-dev"},
     {"webp/", "libwebp-dev"},
     {"tl/", "libexpected-dev"},
+    {"fastdds/", "libfastdds-dev"},
+    {"fastrtps/", "libfastrtps-dev"},
+    {"dds/", "cyclonedds-dev"},
     {"gtest/", "libgtest-dev"},
     {"benchmark/", "libbenchmark-dev"},
     {"sys/", ""},
@@ -66,6 +70,10 @@ constexpr HeaderOrigin kOrigins[] = {
     {"arm_neon.h", ""},
     {"fcntl.h", ""},
     {"poll.h", ""},
+    {"sched.h", ""},
+    {"ifaddrs.h", ""},
+    {"arpa/", ""},
+    {"net/", ""},
     {"dlfcn.h", ""},
 };
 
@@ -81,7 +89,8 @@ std::optional<std::string_view> package_of(const std::string& header) {
   return std::nullopt;
 }
 
-/// A line of packages.txt: `a`, `a|b` (the first that the release has), `a?` (if it has it).
+/// A line of packages.txt: `a`, `a|b` (the first that the release has), `a?` (if it has it), `a!c?`
+/// (if there is no command c either).
 struct Listed {
   std::vector<std::string> names;
   bool optional = false;
@@ -102,6 +111,7 @@ std::vector<Listed> packages_file() {
     Listed listed;
     listed.optional = entry.back() == '?';
     if (listed.optional) entry.pop_back();
+    entry = entry.substr(0, entry.find('!'));
     for (const std::string_view name : words_of(entry, "|")) listed.names.emplace_back(name);
     all.push_back(std::move(listed));
   }

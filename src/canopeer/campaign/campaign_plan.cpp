@@ -93,11 +93,17 @@ std::vector<CampaignJob> shard_jobs(const CampaignPlan& plan) {
 
 std::vector<std::string> run_arguments(const CampaignPlan& plan, const CampaignJob& job,
                                        const std::filesystem::path& out) {
-  std::vector<std::string> words = {"run",       job.mission.string(),
-                                    "--planner", job.contestant.planner,
-                                    "--seed",    std::to_string(job.seed),
-                                    "--threads", std::to_string(plan.threads),
-                                    "--quiet",   "--out",
+  std::vector<std::string> words = {"run",
+                                    job.mission.string(),
+                                    "--no-replay",
+                                    "--planner",
+                                    job.contestant.planner,
+                                    "--seed",
+                                    std::to_string(job.seed),
+                                    "--threads",
+                                    std::to_string(plan.threads),
+                                    "--quiet",
+                                    "--out",
                                     out.string()};
   if (!job.contestant.table.empty()) {
     words.insert(words.end(), {"--compute-table", job.contestant.table});

@@ -27,6 +27,7 @@ using Payload = std::vector<std::uint8_t>;
 /// Writes little endian.
 class CdrWriter {
  public:
+  static constexpr bool kReads = false;
   template <class... Members>
   void operator()(const Members&... members) {
     (write(members), ...);
@@ -83,10 +84,12 @@ class CdrWriter {
 };
 
 /// Reads either byte order. Takes any bytes: throws std::runtime_error when they are no such
-/// message, before it allocates more than the payload could hold. What comes after the message is
+/// message, before it allocates more than the payload could hold (an empty text of 4 octets takes
+/// 32 of memory; nothing takes more than 16 times its payload). What comes after the message is
 /// left alone: some writers send a few octets too many.
 class CdrReader {
  public:
+  static constexpr bool kReads = true;
   explicit CdrReader(std::span<const std::uint8_t> payload) : bytes_(payload) {
     if (bytes_.size() < 4 || bytes_[0] != 0 || bytes_[1] > 1) {
       throw std::runtime_error("not plain CDR");
@@ -141,6 +144,13 @@ class CdrReader {
       need(count);  // each has one octet at least
       for (std::uint32_t i = 0; i < count; ++i) read(values.emplace_back());
     }
+  }
+  void read(std::vector<bool>& values) {
+    std::uint32_t count = 0;
+    read(count);
+    need(count);
+    values.assign(count, false);
+    for (std::uint32_t i = 0; i < count; ++i) values[i] = bytes_[at_++] != 0;
   }
   template <class T, std::size_t N>
   void read(std::array<T, N>& values) {

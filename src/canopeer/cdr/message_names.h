@@ -12,6 +12,10 @@ namespace canopeer::ros {
 /// "sensor_msgs/msg/JointState" → "sensor_msgs::msg::dds_::JointState" + suffix.
 [[nodiscard]] std::string dds_type_name(std::string_view ros_type, std::string_view suffix = "_");
 
+/// The way back: "sensor_msgs::msg::dds_::JointState_" → "sensor_msgs/msg/JointState". What is no
+/// such name stays as it is.
+[[nodiscard]] std::string ros_type_name(std::string_view dds_type);
+
 template <class Message>
 [[nodiscard]] std::string dds_type() {
   return dds_type_name(Message::kType);

@@ -6,6 +6,7 @@
 #include "canopeer/config/cost_table_file.h"
 #include "canopeer/config/detector_section.h"
 #include "canopeer/config/fruit_section.h"
+#include "canopeer/config/ros2_file.h"
 #include "canopeer/config/world_section.h"
 #include "canopeer/config/yaml_reader.h"
 #include "canopeer/geometry/angles.h"
@@ -143,6 +144,29 @@ std::map<std::string, std::string> read_own(YamlMap section) {
   return own;
 }
 
+/// Those of `ros2` are of the file that the mission names for it, if it names one.
+Expected<std::optional<YamlMap>> set_overrides(YamlMap& mission, const Overrides& overrides) {
+  constexpr std::string_view kRos2 = "ros2.";
+  for (const auto& [key, value] : overrides) {
+    if (key.starts_with(kRos2)) continue;
+    if (auto ok = mission.set(key, value); !ok) return tl::unexpected(ok.error());
+  }
+  auto ros2 = open_ros2_file(mission);
+  if (!ros2) return ros2;
+  for (const auto& [key, value] : overrides) {
+    if (!key.starts_with(kRos2)) continue;
+    auto ok = *ros2 ? (*ros2)->set(key.substr(kRos2.size()), value) : mission.set(key, value);
+    if (!ok) return tl::unexpected(ok.error());
+  }
+  return ros2;
+}
+
+/// Two flat objects as one.
+std::string joined_json(const std::string& a, const std::string& b) {
+  if (b == "{}") return a;
+  return a.substr(0, a.size() - 1) + (a == "{}" ? "" : ", ") + b.substr(1);
+}
+
 Expected<CostTable> find_cost_table(const std::string& name, const fs::path& mission_dir,
                                     const std::vector<fs::path>& dirs) {
   if (name == "free") return CostTable{};
@@ -167,9 +191,8 @@ Expected<MissionFile> load_mission(const fs::path& path, const Overrides& overri
                                    const Registries& registries) {
   auto file = YamlMap::load(path);
   if (!file) return tl::unexpected(file.error());
-  for (const auto& [key, value] : overrides) {
-    if (auto ok = file->set(key, value); !ok) return tl::unexpected(ok.error());
-  }
+  auto ros2_file = set_overrides(*file, overrides);
+  if (!ros2_file) return tl::unexpected(ros2_file.error());
   MissionFile result;
   MissionOptions& mission = result.mission;
   VmpOptions& vmp = mission.planners.vmp;
@@ -202,11 +225,18 @@ Expected<MissionFile> load_mission(const fs::path& path, const Overrides& overri
   result.simulation.arrival_error_rad =
       file->map("simulation").number("arrival_error_rad", 0.0, {0.0, 0.2});
   result.simulation.seed = mission.seed;
+  result.ros2 = read_ros2(*file, *ros2_file);
   if (auto done = file->finish(); !done) return tl::unexpected(done.error());
+  if (*ros2_file) {
+    if (auto done = (*ros2_file)->finish(); !done) return tl::unexpected(done.error());
+  }
   auto costs = find_cost_table(result.compute_table, path.parent_path(), table_dirs);
   if (!costs) return fail_in(file->where("compute_table"), costs.error());
   mission.costs = *costs;
   result.settings_json = file->settings_json();
+  if (*ros2_file) {
+    result.settings_json = joined_json(result.settings_json, (*ros2_file)->settings_json());
+  }
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "canopeer/base/expected.h"
+#include "canopeer/config/ros2_settings.h"
 #include "canopeer/import/world_source.h"
 #include "canopeer/mission/mission_options.h"
 #include "canopeer/mission/registries.h"
@@ -20,6 +21,7 @@ struct MissionFile {
   std::filesystem::path robot;  ///< robot.yaml
   WorldSource world;
   SimulationOptions simulation;
+  std::optional<Ros2Settings> ros2;       ///< of the site of that name; none: its defaults
   std::optional<Pose> T_frame_camera;     ///< camera mounting in place of the robot file's
   std::string compute_table = "default";  ///< name or file of the cost table
   std::string settings_json;              ///< every key with the value in force, defaults too

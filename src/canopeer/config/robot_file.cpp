@@ -178,6 +178,12 @@ bool has_link(const RobotDescription& robot, const std::string& name) {
 
 }  // namespace
 
+Expected<std::filesystem::path> robot_urdf(const std::filesystem::path& path) {
+  const auto file = read_keys(path);
+  if (!file) return tl::unexpected(file.error());
+  return file->urdf;
+}
+
 Expected<RobotModel> load_robot(const std::filesystem::path& path,
                                 const std::optional<Pose>& T_frame_camera,
                                 const std::vector<std::filesystem::path>& package_path) {

@@ -21,6 +21,9 @@ namespace canopeer {
     const std::filesystem::path& path, const std::optional<Pose>& T_frame_camera = {},
     const std::vector<std::filesystem::path>& package_path = {});
 
+/// The URDF that a robot.yaml names. Errors as above.
+[[nodiscard]] Expected<std::filesystem::path> robot_urdf(const std::filesystem::path& path);
+
 /// `xyz_m` and `rpy_deg` (fixed axes x, y, z), both zero by default.
 [[nodiscard]] Pose read_pose(YamlMap pose);
 

@@ -101,10 +101,12 @@ YamlMap::YamlMap(std::shared_ptr<YamlDocument> document, YamlNode* node, std::st
   node_->visited = true;
 }
 
-Expected<YamlMap> YamlMap::load(const std::filesystem::path& path) {
+Expected<YamlMap> YamlMap::load(const std::filesystem::path& path, std::string prefix) {
   auto text = read_file(path);
   if (!text) return fail(text.error().message);
-  return parse(*text, path.string());
+  auto map = parse(*text, path.string());
+  if (map) map->path_ = std::move(prefix);
+  return map;
 }
 
 Expected<YamlMap> YamlMap::parse(std::string_view text, std::string name) {
@@ -140,6 +142,16 @@ Expected<void> YamlMap::set(std::string_view dotted_key, std::string_view value)
 }
 
 bool YamlMap::has(std::string_view key) const { return node_->find(key) != nullptr; }
+
+bool YamlMap::is_text(std::string_view key) const {
+  const YamlNode* const node = node_->find(key);
+  return node != nullptr && node->kind == Kind::kScalar;
+}
+
+bool YamlMap::is_map(std::string_view key) const {
+  const YamlNode* const node = node_->find(key);
+  return node != nullptr && node->kind == Kind::kMap;
+}
 
 YamlNode* YamlMap::take(std::string_view key) {
   node_->asked.emplace(key);
@@ -289,8 +301,7 @@ std::vector<std::string> YamlMap::texts(std::string_view key, std::vector<std::s
 
 std::vector<std::string> YamlMap::text_or_texts(std::string_view key,
                                                 std::vector<std::string> fallback) {
-  const YamlNode* const node = node_->find(key);
-  if (node == nullptr || node->kind != Kind::kScalar) return texts(key, std::move(fallback));
+  if (!is_text(key)) return texts(key, std::move(fallback));
   return {text(key, {})};
 }
 

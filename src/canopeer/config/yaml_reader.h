@@ -34,7 +34,9 @@ struct NumberRange {
 class YamlMap {
  public:
   /// The file's top mapping. Errors: unreadable file, malformed YAML (with line), no mapping.
-  [[nodiscard]] static Expected<YamlMap> load(const std::filesystem::path& path);
+  /// `prefix`: what the keys' dotted names begin with in settings_json().
+  [[nodiscard]] static Expected<YamlMap> load(const std::filesystem::path& path,
+                                              std::string prefix = {});
   /// The same from text; `name` stands for the file in messages.
   [[nodiscard]] static Expected<YamlMap> parse(std::string_view text, std::string name);
 
@@ -43,6 +45,9 @@ class YamlMap {
   [[nodiscard]] Expected<void> set(std::string_view dotted_key, std::string_view value);
 
   [[nodiscard]] bool has(std::string_view key) const;
+  /// It is there, and neither a mapping nor a sequence nor nothing.
+  [[nodiscard]] bool is_text(std::string_view key) const;
+  [[nodiscard]] bool is_map(std::string_view key) const;
 
   double number(std::string_view key, double fallback, NumberRange range = {});
   double required_number(std::string_view key, NumberRange range = {});

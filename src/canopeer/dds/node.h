@@ -12,6 +12,8 @@
 
 namespace canopeer::ros {
 
+class DiscoveryInfo;
+
 struct NodeOptions {
   std::string name = "canopeer";
   std::string ns = "/";                       ///< namespace: "/", "/left_row"
@@ -44,7 +46,7 @@ class Publisher {
 using Subscription = std::shared_ptr<Reader>;
 
 /// A ROS 2 node over DDS: names, remapping, publishers, subscriptions. Services and actions:
-/// service.h, action_client.h, action_server.h. Thread-safe; outlives what it made.
+/// service.h, action.h. Thread-safe; outlives what it made.
 class Node {
  public:
   /// The error: bad names or options, or no participant could be made.
@@ -87,15 +89,20 @@ class Node {
   [[nodiscard]] std::vector<Endpoint> subscribers_of(const std::string& topic) const;
   [[nodiscard]] Rmw rmw_of(const Guid& endpoint) const;
 
-  /// Payloads that were no message of their type, or too long, since the node began.
+  /// Payloads that were no message of their type, since the node began, or too long for any node
+  /// of this process.
   [[nodiscard]] std::int64_t malformed() const;
   void count_malformed() { ++malformed_; }
 
   // For services: endpoints by DDS name, listed as the node's own.
+  /// `prefix` and the resolved name; the error: ROS would refuse it.
+  [[nodiscard]] Expected<std::string> dds_name(const std::string& prefix,
+                                               const std::string& name) const;
   [[nodiscard]] Expected<std::shared_ptr<Writer>> dds_writer(const std::string& topic,
                                                              const std::string& type,
                                                              const Qos& qos,
-                                                             const std::string& user_data);
+                                                             const std::string& user_data,
+                                                             std::function<void()> on_match = {});
   [[nodiscard]] Expected<std::shared_ptr<Reader>> dds_reader(
       const std::string& topic, const std::string& type, const Qos& qos,
       std::function<void(Sample&&)> on_sample, const std::string& user_data);
@@ -112,8 +119,7 @@ class Node {
   NodeOptions options_;
   std::atomic<std::int64_t> malformed_{0};
   std::unique_ptr<Participant> participant_;
-  class DiscoveryInfo;
-  std::unique_ptr<DiscoveryInfo> discovery_;
+  std::shared_ptr<DiscoveryInfo> discovery_;  ///< none: not announced
 };
 
 }  // namespace canopeer::ros

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -30,7 +31,9 @@ inline constexpr Qos kLatchedQos{true, true, 1};
 inline constexpr Qos kTfQos{true, false, 100};
 
 using ParticipantId = std::array<std::uint8_t, 12>;  ///< GUID prefix
-using Guid = std::array<std::uint8_t, 16>;           ///< prefix, then entity
+using VendorId = std::array<std::uint8_t, 2>;
+using Guid = std::array<std::uint8_t, 16>;                    ///< prefix, then entity
+inline constexpr const char* kUserData = "source=canopeer;";  ///< some peers warn where none is
 [[nodiscard]] ParticipantId participant_of(const Guid& guid);
 
 /// The ROS middleware of a peer, told by its vendor id: services are said differently.
@@ -39,9 +42,10 @@ enum class Rmw { unknown, fastrtps, cyclonedds };
 /// Another participant in the domain.
 struct Peer {
   ParticipantId id{};
-  std::array<std::uint8_t, 2> vendor{};
+  VendorId vendor{};
   std::string name;
   std::string user_data;  ///< ROS puts "enclave=/;" there, Iron and later also "typehash"
+  std::chrono::steady_clock::time_point since;  ///< when it was first heard of
   [[nodiscard]] Rmw rmw() const;
   /// "eProsima Fast DDS", "Eclipse Cyclone DDS", or the two octets.
   [[nodiscard]] std::string vendor_name() const;
@@ -57,6 +61,7 @@ struct Endpoint {
   std::string user_data;
 };
 
+inline constexpr std::int64_t kUnknownSequence = -(std::int64_t{1} << 32);
 struct SampleIdentity {
   Guid writer{};
   std::int64_t sequence = 0;
@@ -82,7 +87,8 @@ class Writer {
 };
 
 /// Its callback runs in a thread of the DDS library, one sample at a time, and stops for good
-/// before the destructor returns. Goes before its participant.
+/// before the destructor returns. While it runs nothing else is received: it must not wait for
+/// anybody's answer, nor destroy its reader. Goes before its participant.
 class Reader {
  public:
   virtual ~Reader() = default;
@@ -108,16 +114,21 @@ class Participant {
   [[nodiscard]] static Expected<std::unique_ptr<Participant>> join(
       const ParticipantOptions& options);
   [[nodiscard]] virtual ParticipantId id() const = 0;
-  /// `user_data` must not be empty: some peers warn otherwise.
+  /// `on_match` is called when a reader
+  /// came or went, in a thread of the DDS library, not after the writer's destructor.
   [[nodiscard]] virtual Expected<std::unique_ptr<Writer>> writer(
       const std::string& topic, const std::string& type, const Qos& qos,
-      const std::string& user_data = "source=canopeer;") = 0;
+      const std::string& user_data = kUserData, std::function<void()> on_match = {}) = 0;
   [[nodiscard]] virtual Expected<std::unique_ptr<Reader>> reader(
       const std::string& topic, const std::string& type, const Qos& qos,
-      std::function<void(Sample&&)> on_sample, const std::string& user_data = "source=canopeer;") = 0;
+      std::function<void(Sample&&)> on_sample, const std::string& user_data = kUserData) = 0;
   [[nodiscard]] virtual std::vector<Peer> peers() const = 0;
+  [[nodiscard]] virtual std::optional<Peer> peer(const ParticipantId& id) const = 0;
   [[nodiscard]] virtual std::vector<Endpoint> endpoints() const = 0;
-  /// Samples that were too long.
+  [[nodiscard]] virtual std::optional<Endpoint> endpoint(const Guid& guid) const = 0;
+  [[nodiscard]] virtual Rmw rmw_of(const ParticipantId& peer) const = 0;
+  /// Samples that were too long, since this participant joined, by all participants of the process;
+  /// counted a moment after they came.
   [[nodiscard]] virtual std::int64_t dropped() const = 0;
 };
 

@@ -8,7 +8,7 @@
 #include "canopeer/dds/node.h"
 
 // Services in both dialects: the identity of a request travels beside it (rmw_fastrtps) or at its
-// head (rmw_cyclonedds). Which one is spoken follows the peer's vendor.
+// head (rmw_cyclonedds). Which one is spoken follows the peer's vendor (decision 93).
 
 namespace canopeer::ros {
 
@@ -19,7 +19,7 @@ class RawClient {
   /// A server's reader and writer are both there.
   [[nodiscard]] virtual bool ready() const = 0;
   /// Asks; `on_reply` is called once from a thread of the DDS library, or never. The error: nobody
-  /// is there.
+  /// is there, or servers that speak differently.
   [[nodiscard]] virtual Expected<std::int64_t> ask(Payload request,
                                                    std::function<void(Payload&&)> on_reply) = 0;
   /// No reply is wanted any more.
@@ -51,21 +51,24 @@ class Client {
   [[nodiscard]] static Expected<Client> make(Node& node, const std::string& service) {
     auto raw = make_raw_client(node, service, dds_request_type<S>(), dds_response_type<S>());
     if (!raw) return tl::unexpected(raw.error());
-    return Client(&node, std::move(*raw));
+    return Client(&node, node.resolve(service), std::move(*raw));
   }
   [[nodiscard]] bool ready() const { return raw_->ready(); }
-  /// Asks and waits for the answer. The error: nobody is there, or none came in time.
+  /// Asks and waits for the answer. The error: nobody is there, the server went away (one that was
+  /// killed is missed after some seconds only), or no answer came in time. Not from a callback of
+  /// the node: that holds up the answer.
   [[nodiscard]] Expected<typename S::Response> call(const typename S::Request& request,
                                                     std::chrono::milliseconds patience);
   /// Asks; `on_response` comes from a thread of the DDS library, or never.
-  [[nodiscard]] Expected<std::int64_t> ask(
-      const typename S::Request& request,
-      std::function<void(typename S::Response&&)> on_response);
+  [[nodiscard]] Expected<std::int64_t> ask(const typename S::Request& request,
+                                           std::function<void(typename S::Response&&)> on_response);
   void forget(std::int64_t request) { raw_->forget(request); }
 
  private:
-  Client(Node* node, std::unique_ptr<RawClient> raw) : node_(node), raw_(std::move(raw)) {}
+  Client(Node* node, std::string service, std::unique_ptr<RawClient> raw)
+      : node_(node), service_(std::move(service)), raw_(std::move(raw)) {}
   Node* node_;
+  std::string service_;
   std::unique_ptr<RawClient> raw_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "canopeer/base/expected.h"
@@ -17,6 +18,11 @@ namespace canopeer {
 /// The ROI as a tree of its own; voxels without ROI log-odds are not in it.
 [[nodiscard]] Expected<void> write_roi_ot(const VoxelMap& map, const std::filesystem::path& path);
 [[nodiscard]] Expected<void> write_roi_bt(const VoxelMap& map, const std::filesystem::path& path);
+
+/// What comes behind the header of such a file of the occupancy: the nodes alone, which is what
+/// octomap_msgs/Octomap holds. Empty when the map is. The error: beyond OctoMap's ± 32 768 voxels.
+[[nodiscard]] Expected<std::string> ot_nodes(const VoxelMap& map);
+[[nodiscard]] Expected<std::string> bt_nodes(const VoxelMap& map);
 
 /// Reads the occupancy of an `.ot` file (types OcTree, OcTreeStamped and ColorOcTree) or of a `.bt`
 /// file; which of them it is stands in it. `options.resolution_m` is replaced by the file's; the

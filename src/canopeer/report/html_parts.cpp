@@ -38,6 +38,10 @@ std::string html_details(const std::string& summary, const std::string& content)
                      content);
 }
 
+std::string html_moment(double t_s, const std::string& html) {
+  return fmt::format("<a href=\"http://127.0.0.1:8765/#t={:.2f}\">{}</a>", t_s, html);
+}
+
 std::string html_page(const std::string& title, const std::string& body) {
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"

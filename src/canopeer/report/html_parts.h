@@ -21,6 +21,9 @@ namespace canopeer {
 /// A part that is closed until the reader opens it.
 [[nodiscard]] std::string html_details(const std::string& summary, const std::string& content);
 
+/// `html` as a link to the moment in the replay, where `canopeer view` shows it.
+[[nodiscard]] std::string html_moment(double t_s, const std::string& html);
+
 /// The whole document around `body`.
 [[nodiscard]] std::string html_page(const std::string& title, const std::string& body);
 

@@ -128,6 +128,7 @@ Expected<RunFiles> read_run_files(const std::filesystem::path& run_dir) {
     read = into(files.pictures, read_pictures(run_dir / "pictures"));
   }
   if (!read) return fail(read.error().message);
+  files.replay = is_there(run_dir / "replay");
   return files;
 }
 

@@ -27,6 +27,7 @@ struct RunFiles {
   CloudFile surface;                    ///< of the fruits, each point with its fruit; may be empty
   std::vector<FruitTruth> truth;        ///< empty: no ground_truth.csv
   std::vector<ReportPicture> pictures;  ///< by file name
+  bool replay = false;                  ///< `canopeer view` can show the run again
 };
 
 /// `record` must be there; a run killed before it wrote `summary.json` and `fruits.csv` is read

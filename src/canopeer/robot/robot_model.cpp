@@ -267,6 +267,13 @@ void RobotModel::leave_neighbours_out() {
   }
 }
 
+void RobotModel::slow_down(double speed) {
+  for (JointLimits* const limits : {&limits_, &span_}) {
+    limits->velocity *= speed;
+    limits->acceleration *= speed * speed;
+  }
+}
+
 bool RobotModel::within_limits(const Configuration& q) const {
   return (q.array() >= limits_.lower.array() - kLimitTolerance).all() &&
          (q.array() <= limits_.upper.array() + kLimitTolerance).all();

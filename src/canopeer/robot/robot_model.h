@@ -40,7 +40,8 @@ struct RobotSetup {
                    ///< blocks. Empty: no such place is known
 };
 
-/// Kinematics of an arm with a camera on a trolley. Immutable, so safe to share between threads.
+/// Kinematics of an arm with a camera on a trolley. Const members are safe to call from several
+/// threads.
 class RobotModel {
  public:
   /// Checks that the description is one tree, and that the setup's names are in it with the right
@@ -55,6 +56,9 @@ class RobotModel {
   [[nodiscard]] const JointLimits& limits() const { return limits_; }
   /// The limits, with −π … π for joints that turn without end: each place once. To draw from.
   [[nodiscard]] const JointLimits& span() const { return span_; }
+  /// Every motion of the arm takes 1/speed as long from now on, on the same path: its limits of
+  /// velocity are `speed` (0, 1] of what they were, those of acceleration the square of it.
+  void slow_down(double speed);
   /// Which joints turn without end.
   [[nodiscard]] const EndlessJoints& endless() const { return endless_; }
   /// Up to kLimitTolerance.
@@ -103,6 +107,22 @@ class RobotModel {
   [[nodiscard]] bool has_followers() const { return has_followers_; }
   /// Whether moving `link_b` always takes `link_a` along.
   [[nodiscard]] bool carried_by(int link_a, int link_b) const;
+
+  /// How a link sits on its parent: T_parent_link = T_parent_joint · motion(position about or along
+  /// axis), position = multiplier · (what drives it) + offset.
+  struct Mount {
+    enum class Driver { none, arm, travel, lift };
+    int parent = -1;  ///< index of a link; −1: the root
+    Pose T_parent_joint = Pose::Identity();
+    JointType type = JointType::kFixed;  ///< kFixed, kRevolute or kPrismatic
+    Vec3 axis = Vec3::UnitZ();           ///< joint frame
+    Driver driver = Driver::none;
+    int arm_joint = -1;  ///< which, when an arm joint drives it
+    double multiplier = 1.0;
+    double offset = 0.0;
+  };
+  /// For people who draw the robot or do its kinematics elsewhere.
+  [[nodiscard]] Mount mount(int link) const;
 
   /// Links in an order in which parents come before children; link indices below refer to it.
   [[nodiscard]] const std::vector<Link>& links() const { return links_; }

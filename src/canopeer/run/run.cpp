@@ -8,6 +8,7 @@
 
 #include "canopeer/base/check.h"
 #include "canopeer/mission/record_keeper.h"
+#include "canopeer/mission/steering_desk.h"
 #include "canopeer/run/run_results.h"
 
 namespace canopeer {
@@ -51,7 +52,17 @@ struct Run::State {
         header(header_of(stage->file())),
         out(out_or_default(std::move(directory), header)),
         mission(stage->robot(), stage->site().ports(), stage->file().mission, stage->registries()) {
-    stage->site().watch_map(&mission.map());
+    Site& site = stage->site();
+    site.watch_map(&mission.map());
+    site.results_in(out);
+    if (auto watcher = site.watcher()) mission.watch(std::move(watcher), {.name = "the site"});
+    if (Steering* const steering = site.steering()) steer(*steering);
+  }
+
+  void steer(Steering& steering) {
+    if (!steered) mission.steer(together);
+    steered = true;
+    together.add(steering);
   }
 
   SteadyClock::time_point begun;
@@ -60,6 +71,8 @@ struct Run::State {
   RunHeader header;
   fs::path out;
   std::optional<RecordKeeper> record;
+  SteeringTogether together;  // outlives the mission
+  bool steered = false;
   Mission mission;
   enum class Phase { composed, running, ended } phase = Phase::composed;
   Expected<void> outcome;
@@ -98,7 +111,7 @@ void Run::watch(std::shared_ptr<Watcher> watcher, const WatchOptions& options) {
   state_->mission.watch(std::move(watcher), options);
 }
 void Run::keep(Keeper& keeper) { state_->mission.keep(keeper); }
-void Run::steer(Steering& steering) { state_->mission.steer(steering); }
+void Run::steer(Steering& steering) { state_->steer(steering); }
 const Expected<void>& Run::outcome() const { return state_->outcome; }
 bool Run::interrupted() const { return state_->record && state_->record->record().interrupted; }
 const fs::path& Run::out() const { return state_->out; }

@@ -27,7 +27,8 @@ class Run {
                                                               std::filesystem::path out);
   ~Run();
 
-  /// Who watches, who keeps, who steers: said before begin(). Keepers and steering outlive the run.
+  /// Who watches, who keeps, who steers, besides those of the site: said before begin(). Keepers
+  /// and steering outlive the run.
   void watch(std::shared_ptr<Watcher> watcher, const WatchOptions& options = {});
   void keep(Keeper& keeper);
   void steer(Steering& steering);

@@ -11,6 +11,18 @@ SiteRegistry SiteRegistry::built_in() {
   return sites;
 }
 
+Expected<void> SiteRegistry::add_with_manners(const std::string& name, const std::string& one_line,
+                                              const Factory& factory, SiteManners manners) {
+  auto added = add(name, one_line, factory);
+  if (added) manners_[name] = std::move(manners);
+  return added;
+}
+
+SiteManners SiteRegistry::manners(std::string_view name) const {
+  const auto found = manners_.find(name);
+  return found == manners_.end() ? SiteManners() : found->second;
+}
+
 Expected<std::unique_ptr<Site>> SiteRegistry::make(std::string_view name,
                                                    const SiteRequest& request) const {
   const auto factory = find(name);

@@ -1,13 +1,17 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
 
 #include "canopeer/base/named_factories.h"
 #include "canopeer/config/mission_file.h"
+#include "canopeer/mission/listeners.h"
 #include "canopeer/mission/ports.h"
+#include "canopeer/mission/steering.h"
 #include "canopeer/robot/exact_checker.h"
 #include "canopeer/robot/robot_model.h"
 #include "canopeer/scene/scene.h"
@@ -25,6 +29,12 @@ class Site {
   /// The mission's map, for sites that judge motions by what is known. The map outlives the site's
   /// last motion.
   virtual void watch_map(const VoxelMap* /*map*/) {}
+  /// Who watches runs from there, to tell others of them; null: nobody.
+  [[nodiscard]] virtual std::shared_ptr<Watcher> watcher() { return nullptr; }
+  /// Who may steer runs from there; null: nobody. Valid as long as the site.
+  [[nodiscard]] virtual Steering* steering() { return nullptr; }
+  /// Where the run's results will lie.
+  virtual void results_in(const std::filesystem::path& /*out*/) {}
   /// What is really there; null where nobody knows: on a real robot.
   [[nodiscard]] virtual const Scene* truth() const { return nullptr; }
 
@@ -38,11 +48,23 @@ class Site {
   }
 };
 
-/// What is said while a site is made; all may be empty.
+/// What is said while a site is made, and later; all may be empty.
 struct SiteCallbacks {
   std::function<void(const ImportProgress&)> on_import{};    ///< how far a long import is
   std::function<void(const std::string& text)> on_news{};    ///< what has been done
   std::function<void(const std::string& text)> on_notice{};  ///< what is missing or odd
+  // As long as the site lives:
+  std::function<void(const std::string& text)> on_message{};  ///< what a person should know or do
+  /// Whether a person wants the run to stop: motions under way end then, too.
+  std::function<bool()> stop_asked{};
+};
+
+/// What a stage has to know of a site before it is made.
+struct SiteManners {
+  bool realtime = false;  ///< its time is the wall clock's, whether or not that is asked for
+  /// How fast the arm moves there, of what its limits allow, (0, 1]. The stage's robot has limits
+  /// by which every motion takes 1/speed as long. Empty: 1.
+  std::function<double(const MissionFile& file)> arm_speed{};
 };
 
 /// What a site is made from; file and robot outlive it.
@@ -58,12 +80,19 @@ class SiteRegistry
  public:
   /// Those of this library: simulation.
   [[nodiscard]] static SiteRegistry built_in();
+  /// As add(), of a site with manners of its own.
+  [[nodiscard]] Expected<void> add_with_manners(const std::string& name,
+                                                const std::string& one_line, const Factory& factory,
+                                                SiteManners manners);
+  [[nodiscard]] SiteManners manners(std::string_view name) const;
   /// The site called `name`; the error lists the names there are, or is the factory's.
   [[nodiscard]] Expected<std::unique_ptr<Site>> make(std::string_view name,
                                                      const SiteRequest& request) const;
 
  private:
   SiteRegistry() : NamedFactories("site") {}
+
+  std::map<std::string, SiteManners, std::less<>> manners_;  // of those that have any
 };
 
 }  // namespace canopeer

@@ -95,13 +95,16 @@ Expected<std::unique_ptr<Stage>> Stage::make(const StageRequest& request,
 
 Expected<std::unique_ptr<Stage>> Stage::make(MissionFile file, const StageRequest& request,
                                              const RunRegistries& registries) {
-  if (request.realtime) put_on_the_wall_clock(file, request.threads);
+  const SiteManners manners = registries.sites.manners(request.site);
+  const bool realtime = request.realtime || manners.realtime;
+  if (realtime) put_on_the_wall_clock(file, request.threads);
   if (!request.fuel_caches.empty()) file.world.import.fuel_caches = request.fuel_caches;
   auto robot = load_robot(file.robot, file.T_frame_camera, request.package_path);
   if (!robot) return tl::unexpected(robot.error());
   for (const std::string& notice : robot->description().notices) {
     if (request.callbacks.on_notice) request.callbacks.on_notice(notice);
   }
+  if (manners.arm_speed) robot->slow_down(manners.arm_speed(file));
   auto ik = ArmIk::make(*robot);
   if (!ik) return tl::unexpected(ik.error());
   if (auto ok = check(file, *robot, registries); !ok) return tl::unexpected(ok.error());
@@ -109,7 +112,7 @@ Expected<std::unique_ptr<Stage>> Stage::make(MissionFile file, const StageReques
       new Stage(std::move(file), std::move(*robot), std::move(*ik), registries));
   auto site = registries.sites.make(request.site, {stage->file_, stage->robot_, request.callbacks});
   if (!site) return tl::unexpected(site.error());
-  if (auto ok = check_site(request.site, site->get(), request.realtime); !ok) {
+  if (auto ok = check_site(request.site, site->get(), realtime); !ok) {
     return tl::unexpected(ok.error());
   }
   stage->site_ = std::move(*site);

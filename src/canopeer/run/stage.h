@@ -19,7 +19,7 @@ struct StageRequest {
   std::vector<std::filesystem::path> package_path;  ///< where packages of robots' meshes are too
   std::vector<std::filesystem::path> fuel_caches;   ///< see WorldImportOptions; empty: the file's
   std::string site = "simulation";
-  bool realtime = false;  ///< on the wall clock, as every real robot is
+  bool realtime = false;  ///< on the wall clock; sites of real robots are so anyway
   int threads = 0;        ///< at most; 0: all cores
   SiteCallbacks callbacks{};
 };

@@ -140,6 +140,14 @@ Expected<void> write_png(const std::filesystem::path& path, const ColorImage& im
   return write_encoded(path, image.width(), image.height(), 8, PNG_COLOR_TYPE_RGB, rows);
 }
 
+std::string encode_png(const Mask& image) {
+  std::string bytes;
+  if (image.empty()) return bytes;
+  encode(image.width(), image.height(), 8, PNG_COLOR_TYPE_GRAY, image.pixels().data(),
+         static_cast<std::size_t>(image.width()), &bytes);
+  return bytes;
+}
+
 Expected<void> write_depth_png(const std::filesystem::path& path, const DepthImage& depth,
                                double units_per_m) {
   const auto scale = static_cast<float>(units_per_m);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "canopeer/base/expected.h"
@@ -15,6 +16,9 @@ namespace canopeer {
 /// format of depth images; in millimetres unless `units_per_m` says otherwise.
 [[nodiscard]] Expected<void> write_depth_png(const std::filesystem::path& path,
                                              const DepthImage& depth, double units_per_m = 1000.0);
+
+/// 8 bit grey as the bytes of a file; empty for an image without pixels.
+[[nodiscard]] std::string encode_png(const Mask& image);
 
 /// Reads 8 bit RGB (grey, palette and alpha are converted). As the other readers it refuses an
 /// image larger than the file can hold, before it takes the memory.

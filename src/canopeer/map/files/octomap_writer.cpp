@@ -206,7 +206,22 @@ Expected<void> write_tree(const VoxelMap& map, const std::filesystem::path& path
   return write_file(path, pieces);
 }
 
+Expected<std::string> nodes_of(const VoxelMap& map, Precision precision) {
+  const auto blocks = blocks_in_tree_order(map);
+  if (!blocks) return tl::unexpected(blocks.error());
+  TreeWriter writer(map, Layer::occupancy, precision);
+  writer.write(*blocks);
+  std::string nodes;
+  nodes.reserve(writer.data().size());
+  for (const std::string_view piece : writer.data().pieces()) nodes += piece;
+  return nodes;
+}
+
 }  // namespace
+
+Expected<std::string> ot_nodes(const VoxelMap& map) { return nodes_of(map, Precision::full); }
+
+Expected<std::string> bt_nodes(const VoxelMap& map) { return nodes_of(map, Precision::binary); }
 
 Expected<void> write_ot(const VoxelMap& map, const std::filesystem::path& path) {
   return write_tree(map, path, Layer::occupancy, Precision::full);

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "canopeer/report/drawing/axis_ticks.h"
 #include "canopeer/report/fruits/fruit_map_svg.h"
 #include "canopeer/report/html_parts.h"
@@ -38,6 +40,18 @@ std::string place_cell(const FruitEstimate& f) {
                      signed_number(f.place->height_m, 2));
 }
 
+/// Its number, which leads to the moment it was first known.
+std::string fruit_cell(const FruitEstimate& fruit, const RunFiles& files) {
+  std::string text = std::to_string(fruit.id);
+  if (!files.replay) return text;
+  for (const ViewEvent& view : files.record.views) {
+    const bool known = std::any_of(view.fruits.begin(), view.fruits.end(),
+                                   [&](const FruitSnapshot& f) { return f.id == fruit.id; });
+    if (known) return html_moment(view.t_s, text);
+  }
+  return text;
+}
+
 }  // namespace
 
 FruitMapInput fruit_map_input(const RunFiles& files) {
@@ -70,7 +84,7 @@ std::string fruit_list_section(const ReportData& data) {
   for (std::size_t i = 0; i < files.fruits.size(); ++i) {
     const FruitEstimate& f = files.fruits[i];
     const Vec3 axes_mm = 1e3 * f.semi_axes_m;
-    rows.push_back({std::to_string(f.id), signed_number(f.centre.x(), 3),
+    rows.push_back({fruit_cell(f, files), signed_number(f.centre.x(), 3),
                     signed_number(f.centre.y(), 3), signed_number(f.centre.z(), 3),
                     fmt::format("{:.0f} × {:.0f} × {:.0f}", axes_mm.x(), axes_mm.y(), axes_mm.z()),
                     fmt::format("{:.0f} ± {:.0f}", f.volume_cm3, f.volume_sd_cm3),

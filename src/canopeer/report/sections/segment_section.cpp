@@ -50,6 +50,11 @@ double planning_of(const RunRecord& record, int segment) {
   return sum;
 }
 
+std::string segment_cell(const SegmentEvent& segment, bool replay) {
+  const std::string text = fmt::format("{}: {}", segment.segment + 1, escape_html(segment.name));
+  return replay ? html_moment(segment.start_s, text) : text;
+}
+
 std::string fruits_gained(const ReportData& data, double from_s, double to_s) {
   if (!data.found.empty()) {
     const auto count = [](const FoundAtTime& f) { return f.detected; };
@@ -78,8 +83,7 @@ std::string segment_section(const ReportData& data) {
     const auto roi = [](const ViewEvent& view) { return view.roi_voxels; };
     const Motions motions = motions_of(record, segment.segment);
     rows.push_back(
-        {fmt::format("{}: {}", segment.segment + 1, escape_html(segment.name)),
-         fmt::format("{:.0f}", segment.start_s),
+        {segment_cell(segment, data.files.replay), fmt::format("{:.0f}", segment.start_s),
          fmt::format("{:.1f}", segment.end_s - segment.start_s), std::to_string(views),
          fruits_gained(data, from_s, to_s),
          gain(at_time(record.views, from_s, roi), at_time(record.views, to_s, roi)),
@@ -94,7 +98,11 @@ std::string segment_section(const ReportData& data) {
                               data.found.empty() ? "fruits<br>reported" : "fruits found<br>(5 cm)",
                               "ROI<br>voxels", "between views,<br>median s", "moving<br>s",
                               "planning<br>s", "colli-<br>sions", "plant<br>contacts"},
-                             rows));
+                             rows) +
+                      (data.files.replay ? "<p class=\"note\">Names of segments and numbers of "
+                                           "fruits lead to the moment in the replay, while "
+                                           "<code>canopeer view</code> shows this run.</p>\n"
+                                         : ""));
 }
 
 }  // namespace canopeer

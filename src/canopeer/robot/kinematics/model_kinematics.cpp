@@ -111,6 +111,20 @@ Pose RobotModel::T_parent_link(const Node& node, const TrolleyState& trolley) co
   return T;
 }
 
+RobotModel::Mount RobotModel::mount(int link) const {
+  const Node& node = nodes_[link];
+  Mount mount{node.parent, node.T_parent_joint, JointType::kFixed, node.axis};
+  if (node.drive == Drive::kNone) return mount;
+  mount.type = node.type;
+  mount.driver = node.drive == Drive::kArm      ? Mount::Driver::arm
+                 : node.drive == Drive::kTravel ? Mount::Driver::travel
+                                                : Mount::Driver::lift;
+  mount.arm_joint = node.arm_joint;
+  mount.multiplier = node.multiplier;
+  mount.offset = node.offset;
+  return mount;
+}
+
 Pose RobotModel::T_world_base(const TrolleyState& trolley) const {
   Pose T = setup_.T_world_root;
   for (const int index : base_path_) T = T * T_parent_link(nodes_[index], trolley);

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "canopeer/cdr/cdr.h"
+
+// How rmw_cyclonedds says whose request a payload is: 16 octets before the members. rmw_fastrtps
+// says it beside the payload, in SampleIdentity.
+
+namespace canopeer::ros {
+
+struct RequestHead {
+  std::uint64_t client = 0;
+  std::int64_t sequence = 0;
+  [[nodiscard]] bool operator==(const RequestHead&) const = default;
+};
+
+[[nodiscard]] Payload with_head(const Payload& body, const RequestHead& head);
+
+struct HeadAndBody {
+  RequestHead head;
+  Payload body;
+};
+/// Nothing: too short for a head.
+[[nodiscard]] std::optional<HeadAndBody> split_head(Payload&& payload);
+
+/// "clientid=1.2.f…;" with 16 octets drawn anew: rmw_cyclonedds finds a client's reader and writer
+/// (key "clientid"), or a server's ("serviceid"), by it.
+[[nodiscard]] std::string new_pair_mark(const std::string& key);
+/// The value of `key` in "key=value;…", or nothing.
+[[nodiscard]] std::string user_data_value(const std::string& user_data, const std::string& key);
+
+}  // namespace canopeer::ros

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "canopeer/mission/event.h"
+#include "canopeer/replay/frame.h"
+#include "canopeer/robot/joint_limits.h"
+
+// What happens, one frame each.
+
+namespace canopeer::frames {
+
+[[nodiscard]] Frame segment_frame(const SegmentEvent& segment, const TrolleyState& trolley);
+[[nodiscard]] Frame trolley_frame(const MotionEvent& drive, const TrolleyState& there);
+[[nodiscard]] Frame view_frame(const ViewEvent& view, const TrolleyState& trolley);
+/// The path as it is timed, stretched to the duration that is expected.
+[[nodiscard]] Frame motion_frame(const MotionBegun& motion, const JointLimits& limits);
+[[nodiscard]] Frame motion_end_frame(const MotionEvent& motion);
+[[nodiscard]] Frame work_frame(const std::vector<WorkItem>& work);
+[[nodiscard]] Frame log_frame(double t_s, std::string_view level, const std::string& text);
+[[nodiscard]] Frame end_frame(const RunEnded& end);
+
+/// Fruits that changed since the last time.
+class FruitFrames {
+ public:
+  [[nodiscard]] Frame fruits(const FruitsFound& found);
+
+ private:
+  std::map<int, std::string> told_;
+};
+
+}  // namespace canopeer::frames

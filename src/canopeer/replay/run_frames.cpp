@@ -1,0 +1,111 @@
+#include "canopeer/replay/run_frames.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "canopeer/replay/frames/frame_head.h"
+#include "canopeer/replay/frames/happening_frames.h"
+#include "canopeer/replay/frames/map_frames.h"
+#include "canopeer/replay/frames/picture_frames.h"
+#include "canopeer/replay/frames/plan_frames.h"
+#include "canopeer/replay/frames/still_frames.h"
+
+namespace canopeer {
+
+using namespace frames;
+
+struct RunFrames::State {
+  RunStory story;
+  JointLimits limits;
+  std::vector<Frame> first;
+  MapFrames map;
+  PlanFrames plan;
+  FruitFrames fruit;
+
+  [[nodiscard]] TrolleyState trolley(int segment) const {
+    const auto index = static_cast<std::size_t>(std::max(segment, 0));
+    return index < story.segments.size() ? story.segments[index].trolley : TrolleyState{};
+  }
+
+  std::vector<Frame> frames(const RunBegun& begun) const {
+    if (!begun.resumed) return {};
+    return {log_frame(begun.t_s, "info", "The run goes on.")};
+  }
+  std::vector<Frame> frames(const SegmentBegun& begun) const {
+    return {segment_frame(begun.segment, trolley(begun.segment.segment))};
+  }
+  std::vector<Frame> frames(const SegmentEnded&) const { return {}; }
+  std::vector<Frame> frames(const FrameTaken& taken) const {
+    std::vector<Frame> all = picture_frames(taken.view.view, *taken.frame, *taken.detection);
+    all.insert(all.begin(), view_frame(taken.view, trolley(taken.view.segment)));
+    return all;
+  }
+  std::vector<Frame> frames(const MapChanged& change) {
+    std::vector<Frame> all;
+    if (change.map) all.push_back(map.map(change.view, change.t_s, *change.map, change.blocks));
+    if (change.targets) all.push_back(map.targets(change.view, *change.targets));
+    return all;
+  }
+  std::vector<Frame> frames(const FruitsFound& found) { return {fruit.fruits(found)}; }
+  std::vector<Frame> frames(const Planned& planned) {
+    if (!planned.sketch) return {};
+    return {plan.plan(planned)};
+  }
+  std::vector<Frame> frames(const MotionBegun& motion) const {
+    return {motion_frame(motion, limits)};
+  }
+  std::vector<Frame> frames(const MotionEnded& ended) const {
+    const MotionEvent& motion = ended.motion;
+    if (motion.kind == "trolley") return {trolley_frame(motion, trolley(motion.segment))};
+    return {motion_end_frame(motion)};
+  }
+  std::vector<Frame> frames(const Fault& fault) const {
+    return {log_frame(fault.t_s, "fault", fault.message)};
+  }
+  std::vector<Frame> frames(const Steered& steered) const {
+    std::string text(steering_name(steered.word.kind));
+    std::replace(text.begin(), text.end(), '_', ' ');
+    if (!steered.word.by.empty()) text += ", said " + steered.word.by;
+    if (!steered.word.why.empty()) text += ": " + steered.word.why;
+    return {log_frame(steered.t_s, "notice", text)};
+  }
+  std::vector<Frame> frames(const WorkDone& done) const { return {work_frame(done.work)}; }
+  std::vector<Frame> frames(const RunEnded& end) const { return {end_frame(end)}; }
+};
+
+namespace {
+
+Frame hello_frame(const RunStory& story) {
+  Json head = head_of("hello");
+  head["protocol"] = 1;
+  head["mission"] = story.mission;
+  head["planner"] = story.planner;
+  head["seed"] = story.seed;
+  head["canopeer"] = story.canopeer_version;
+  head["simulated"] = story.simulated;
+  head["segments"] = story.segments.size();
+  head["segment_time_s"] = story.segment_time_s;
+  head["resolution_m"] = story.resolution_m;
+  return frame_of(head);
+}
+
+}  // namespace
+
+RunFrames::RunFrames(RunStory story, const RobotModel& robot, const Scene* truth)
+    : state_(std::make_unique<State>()) {
+  state_->limits = robot.limits();
+  state_->first = {hello_frame(story), robot_frame(robot, story.camera)};
+  if (truth != nullptr) state_->first.push_back(truth_frame(*truth));
+  state_->story = std::move(story);
+}
+RunFrames::~RunFrames() = default;
+
+std::vector<Frame> RunFrames::first() const { return state_->first; }
+
+std::vector<Frame> RunFrames::of(const Event& event) {
+  return std::visit([&](const auto& one) { return state_->frames(one); }, event);
+}
+
+void RunFrames::missed() { state_->map.missed(); }
+
+}  // namespace canopeer

@@ -1,0 +1,186 @@
+#include "canopeer/ros2/camera/ros2_camera.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace canopeer::ros {
+namespace {
+
+bool ends_with(const std::string& text, std::string_view end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+bool is_compressed(const std::string& topic) {
+  return ends_with(topic, "/compressed") || ends_with(topic, "/compressedDepth");
+}
+
+const std::string& topic_of(const Ros2CameraSettings& settings, FramePart part) {
+  switch (part) {
+    case FramePart::points:
+      return settings.points;
+    case FramePart::color:
+      return settings.color;
+    case FramePart::labels:
+      return settings.labels;
+    case FramePart::confidences:
+      return settings.confidences;
+    default:
+      return settings.depth;
+  }
+}
+
+std::vector<FramePart> parts_of(const Ros2CameraSettings& settings) {
+  std::vector<FramePart> parts = {FramePart::points};
+  if (settings.points.empty()) parts = {FramePart::depth, FramePart::color};
+  if (!settings.labels.empty()) parts.push_back(FramePart::labels);
+  if (!settings.confidences.empty()) parts.push_back(FramePart::confidences);
+  return parts;
+}
+
+std::string_view type_of(FramePart part, const std::string& topic) {
+  if (part == FramePart::points) return sensor_msgs::PointCloud2::kType;
+  return is_compressed(topic) ? sensor_msgs::CompressedImage::kType : sensor_msgs::Image::kType;
+}
+
+/// What keeps a topic's publishers from being heard.
+std::string odd_publishers(const Node& node, const std::string& topic, std::string_view type,
+                           bool reliable) {
+  const auto publishers = node.publishers_of(topic);
+  if (publishers.empty()) return "nobody publishes it";
+  const auto fits = [&](const Endpoint& endpoint) { return endpoint.type == dds_type_name(type); };
+  if (std::none_of(publishers.begin(), publishers.end(), fits)) {
+    return "its type is " + ros_type_name(publishers.front().type) + ", expected " +
+           std::string(type);
+  }
+  const auto reaches = [&](const Endpoint& endpoint) {
+    return fits(endpoint) && (endpoint.qos.reliable || !reliable);
+  };
+  if (std::none_of(publishers.begin(), publishers.end(), reaches)) {
+    return "it is published best effort: camera.reliable must be false";
+  }
+  return "";
+}
+
+CameraFeed::Parts feed_parts(const Node& node, const Ros2CameraSettings& settings,
+                             const CameraSurroundings& around) {
+  CameraFeed::Parts parts;
+  parts.intake.parts = parts_of(settings);
+  parts.intake.needs_info = settings.points.empty();
+  parts.intake.sync.max_difference = nanoseconds(settings.max_difference_s);
+  parts.assembly = assembly_options(settings.color, settings.depth);
+  parts.assembly.min_confidence = settings.min_confidence;
+  parts.assembly.min_range_m = around.min_range_m;
+  parts.assembly.max_range_m = around.max_range_m;
+  parts.topic = [settings](FramePart part) { return topic_of(settings, part); };
+  parts.info_topic = settings.info;
+  parts.odd_publishers = [&node, settings](const std::string& topic) -> std::string {
+    for (const auto& [name, type] : Ros2Camera::topics(settings)) {
+      if (name == topic) return odd_publishers(node, topic, type, settings.reliable);
+    }
+    return "";
+  };
+  parts.mission_time_s = around.mission_time_s;
+  parts.alive = around.alive;
+  return parts;
+}
+
+}  // namespace
+
+std::vector<Ros2Camera::Topic> Ros2Camera::topics(const Ros2CameraSettings& settings) {
+  std::vector<Topic> topics;
+  for (const FramePart part : parts_of(settings)) {
+    const std::string& topic = topic_of(settings, part);
+    topics.push_back({topic, std::string(type_of(part, topic))});
+  }
+  if (settings.points.empty()) {
+    topics.push_back({settings.info, std::string(sensor_msgs::CameraInfo::kType)});
+  }
+  return topics;
+}
+
+Expected<std::unique_ptr<Ros2Camera>> Ros2Camera::make(Node& node,
+                                                       const Ros2CameraSettings& settings,
+                                                       const CameraSurroundings& around) {
+  std::unique_ptr<Ros2Camera> camera(new Ros2Camera(around.tf_span_s));
+  std::unique_ptr<FramePoses> poses =
+      settings.pose == "tf" ? poses_of_tf(around.robot, camera->tf_, settings.world_frame,
+                                          settings.optical_frame, around.trolley)
+                            : poses_of_joints(around.robot, around.joints, around.trolley);
+  camera->now_ = around.now;
+  camera->feed_ = std::make_unique<CameraFeed>(settings, feed_parts(node, settings, around),
+                                               around.joints, std::move(poses));
+  if (auto subscribed = camera->subscribe(node, settings); !subscribed) {
+    return fail_in("camera", subscribed.error());
+  }
+  return camera;
+}
+
+Ros2Camera::~Ros2Camera() = default;
+
+template <class Message>
+Expected<void> Ros2Camera::subscribe_as(Node& node, FramePart part, const std::string& topic,
+                                        const Qos& qos) {
+  auto made = node.subscribe<Message>(topic, qos, [this, part](Message&& message, const Guid&) {
+    feed_->intake().add(part, std::move(message), now_());
+  });
+  if (!made) return tl::unexpected(made.error());
+  subscriptions_.push_back(std::move(*made));
+  return {};
+}
+
+Expected<void> Ros2Camera::subscribe_part(Node& node, FramePart part, const std::string& topic,
+                                          const Qos& qos) {
+  if (part == FramePart::points) {
+    return subscribe_as<sensor_msgs::PointCloud2>(node, part, topic, qos);
+  }
+  if (is_compressed(topic)) {
+    return subscribe_as<sensor_msgs::CompressedImage>(node, part, topic, qos);
+  }
+  return subscribe_as<sensor_msgs::Image>(node, part, topic, qos);
+}
+
+Expected<void> Ros2Camera::subscribe(Node& node, const Ros2CameraSettings& settings) {
+  const Qos qos{settings.reliable, false, 5};
+  for (const FramePart part : parts_of(settings)) {
+    auto made = subscribe_part(node, part, topic_of(settings, part), qos);
+    if (!made) return made;
+  }
+  if (!settings.info.empty()) {
+    auto made = node.subscribe<sensor_msgs::CameraInfo>(
+        settings.info, qos, [this](sensor_msgs::CameraInfo&& info, const Guid&) {
+          feed_->intake().set_info(std::move(info));
+        });
+    if (!made) return tl::unexpected(made.error());
+    subscriptions_.push_back(std::move(*made));
+  }
+  if (settings.pose != "tf") return {};
+  for (const bool is_static : {false, true}) {
+    auto made = node.subscribe<tf2_msgs::TFMessage>(
+        is_static ? "/tf_static" : "/tf", is_static ? Qos{true, true, 100} : kTfQos,
+        [this, is_static](tf2_msgs::TFMessage&& message, const Guid&) {
+          tf_.add(message, is_static);
+        });
+    if (!made) return tl::unexpected(made.error());
+    subscriptions_.push_back(std::move(*made));
+  }
+  return {};
+}
+
+Expected<RgbdFrame> Ros2Camera::capture() {
+  auto timed = feed_->capture();
+  if (!timed) return fail_in("camera", timed.error());
+  constexpr std::size_t kKept = 1000;
+  const std::lock_guard lock(mutex_);
+  if (latencies_.waited_s.size() < kKept) {
+    latencies_.waited_s.push_back(timed->waited_s);
+    latencies_.decoded_s.push_back(timed->decoded_s);
+  }
+  return std::move(timed->frame);
+}
+
+Ros2Camera::Latencies Ros2Camera::latencies() const {
+  const std::lock_guard lock(mutex_);
+  return latencies_;
+}
+
+}  // namespace canopeer::ros

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "canopeer/config/ros2_settings.h"
+#include "canopeer/robot/robot_model.h"
+#include "canopeer/ros2/arm/person_hooks.h"
+#include "canopeer/ros2/trolley/trolley_sense.h"
+
+namespace canopeer::ros {
+
+/// How a trolley gets to a place: one class a kind.
+class TrolleyDriver {
+ public:
+  virtual ~TrolleyDriver() = default;
+  /// What it needs and does not find, for people; empty: all is there.
+  [[nodiscard]] virtual std::vector<std::string> missing() const { return {}; }
+  /// Goes there, and waits. A person who stops the run ends it early, which is no error.
+  [[nodiscard]] virtual Expected<void> drive(const TrolleyState& goal) = 0;
+  /// Whether it is at `goal` already.
+  [[nodiscard]] virtual bool at(const TrolleyState& goal) const = 0;
+  /// Once after each drive: whether the map should say where it stands.
+  [[nodiscard]] virtual bool take_doubt() { return false; }
+};
+
+/// All outlive the driver.
+struct TrolleyParts {
+  Node& node;
+  const RobotModel& robot;
+  TrolleySense& sense;
+  RosClock& clock;
+  PersonHooks person;
+};
+
+/// The driver for the settings' kind. The error: a topic, action or service cannot be had.
+[[nodiscard]] Expected<std::unique_ptr<TrolleyDriver>> make_trolley_driver(
+    const TrolleyParts& parts, const Ros2Settings& settings);
+
+/// Whether each axis is within `tolerance_m` of a place.
+[[nodiscard]] bool stands_at(const TrolleyState& state, const TrolleyState& goal,
+                             double tolerance_m);
+/// "travel 1.200 m, lift 0.300 m", without axes that the robot does not have.
+[[nodiscard]] std::string in_words(const TrolleyState& state, const RobotModel& robot);
+
+}  // namespace canopeer::ros
