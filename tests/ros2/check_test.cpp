@@ -73,7 +73,7 @@ TEST(Ros2Check, JointNamesThatDoNotFit) {
   settings.joint_names = {{"elbow_joint", "ur_elbow"}};
   EXPECT_FALSE(judged(heard, settings).any_wrong());
   heard.positions["gripper"] = 0.0;
-  EXPECT_SAID(judged(heard, settings), "notice joint names: all 6 are said; so are others");
+  EXPECT_SAID(judged(heard, settings), "ok joint names: all 6 are said; so are others");
 }
 
 TEST(Ros2Check, JointsBeyondLimitsInDegreesOrNoNumbers) {
@@ -126,7 +126,9 @@ TEST(Ros2Check, Topics) {
   ListenedTopic reliable = depth_topic();
   reliable.reliable = true;
   EXPECT_SAID(judge(reliable, {publisher(false)}), "they never meet");
-  EXPECT_SAID(judge(depth_topic(), {publisher(true), publisher(true)}), "two drivers");
+  Endpoint other = publisher(true);
+  other.guid[0] = 1;
+  EXPECT_SAID(judge(depth_topic(), {publisher(true), other}), "two drivers");
   ListenedTopic silent = depth_topic();
   silent.count = 0;
   EXPECT_SAID(judge(silent, {publisher(true)}), "wrong depth: /depth is published, but nothing");
@@ -168,6 +170,8 @@ TEST(Ros2Check, Clocks) {
   EXPECT_SAID(judge(0.001, 1.3), "ros2.camera.time_offset_s to 1.30");
   EXPECT_FALSE(judge(0.001, 1.3, 1.27).any_wrong());
   EXPECT_SAID(judge(0.001, -0.2), "about 0.20 s ahead of");
+  EXPECT_SAID(judge(0.001, -0.03), "notice clocks");
+  EXPECT_SAID(judge(0.001, -0.03), "to -0.03 at least: --move measures it");
   EXPECT_SAID(judge(-0.2, -0.17), "notice clocks: joint states are 200 ms from the future");
   Findings findings;
   judge_sim_time(true, false, false, findings);
@@ -265,7 +269,7 @@ TEST(Ros2Check, LooksAroundAreNearFreeAndDifferent) {
   const CollisionChecker checker(robot, {1.0, 0.0});
   const Configuration home = robot.home("side_1");
   const auto looks = looks_around(robot, checker, home);
-  ASSERT_GE(looks.size(), 8u);
+  ASSERT_GE(looks.size(), 7u);
   const Pose T_base_home = robot.T_base_camera(home);
   double turned = 0.0;
   for (const Configuration& look : looks) {

@@ -165,7 +165,8 @@ std::string pose_residuals(const HandEyeEstimate& estimate) {
   return text;
 }
 
-std::string numbers_text(const Vec3& v, int decimals) {
+std::string numbers_text(Vec3 v, int decimals) {
+  v += Vec3::Zero();  // no -0
   return "[" + figure(v.x(), decimals) + ", " + figure(v.y(), decimals) + ", " +
          figure(v.z(), decimals) + "]";
 }
