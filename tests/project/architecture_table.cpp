@@ -16,7 +16,9 @@ std::vector<std::string> matches(const std::string& text, const char* pattern) {
           std::sregex_token_iterator()};
 }
 
-std::vector<std::string> words_of(const std::string& text) { return matches(text, "[a-z_]+"); }
+std::vector<std::string> words_of(const std::string& text) {
+  return matches(text, "[a-z][a-z0-9_]*");
+}
 
 /// The cells of the table under a heading of ARCHITECTURE.md, without its head.
 std::vector<std::vector<std::string>> rows_under(const std::string& heading) {
@@ -79,7 +81,7 @@ std::set<std::string> names_of(const Allowed& allowed) {
 }
 
 Place place_of(const std::string& header) {
-  static const std::regex address("^canopeer/([a-z]+)(/.+)?/[^/]+$");
+  static const std::regex address("^canopeer/([a-z][a-z0-9]*)(/.+)?/[^/]+$");
   std::smatch match;
   if (!std::regex_match(header, match, address)) return {};
   const std::string module = match[1].str();

@@ -35,7 +35,9 @@ std::vector<std::string> robot_words(int domain, const std::vector<std::string>&
 std::vector<std::string> mission_words(int domain, const std::filesystem::path& out,
                                        const std::vector<std::string>& more = {}) {
   return with({"run", "missions/smoke.yaml", "--site", "ros2", "--out", out.string(), "--set",
-               "ros2.domain=" + std::to_string(domain), "--set", "ros2.discovery_s=60"},
+               "ros2.domain=" + std::to_string(domain), "--set", "ros2.discovery_s=60", "--set",
+               "ros2.arm.max_silence_s=5", "--set", "ros2.arm.first_motions=0", "--set",
+               "ros2.arm.speed_scale=1"},
               more);
 }
 

@@ -176,13 +176,6 @@ TEST_F(Ros2WatcherTest, FollowsAWholeMission) {
   const Heard<nav_msgs::Path> path(*viewer_, "/canopeer/path");
   const Heard<sensor_msgs::PointCloud2> roi(*viewer_, "/canopeer/roi_voxels");
   const auto summary = must(run->execute());
-  for (const auto& w : run->mission().watched())
-    std::printf("%s lost %ld failure %s left %d\n", w.name.c_str(), long(w.lost), w.failure.c_str(),
-                w.left_behind);
-  std::printf("views %d fruits %d\n", summary.views, summary.fruits_reported);
-  std::this_thread::sleep_for(std::chrono::seconds(2));
-  std::printf("progress %d %s\n", progress.count(),
-              progress.last() ? progress.last()->data.c_str() : "-");
   EXPECT_TRUE(progress.comes_to([&](const auto& text) {
     const auto json = nlohmann::json::parse(text.data);
     return json["state"] == "ended" && json["views"] == summary.views && json["lost_events"] == 0;

@@ -53,6 +53,9 @@ constexpr auto kOk = eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
 #endif
 
 constexpr std::uint32_t kSocketBuffer = 4u << 20;
+// Where discovery is heard (DDSI-RTPS 2.3, 9.6.1).
+constexpr int kMulticastPort = 7400;
+constexpr int kPortsOfDomain = 250;
 
 // ---- Between its values and ours --------------------------------------------------------------
 
@@ -238,7 +241,10 @@ class FastWriter final : public Writer, fast::DataWriterListener {
   bool open(fast::Topic& topic, const Qos& qos, const std::string& user_data) {
     fast::DataWriterQos to = fast::DATAWRITER_QOS_DEFAULT;
     fill(to, qos, user_data);
-    to.publish_mode().kind = fast::ASYNCHRONOUS_PUBLISH_MODE;
+    // Sent by whoever writes, as ROS does. And kept: a volatile writer lets go of samples when a
+    // reader leaves, and may lock itself up with the thread that repeats them (seen in 2.9).
+    to.publish_mode().kind = fast::SYNCHRONOUS_PUBLISH_MODE;
+    to.durability().kind = fast::TRANSIENT_LOCAL_DURABILITY_QOS;
     to.reliability().max_blocking_time = {1, 0};
     to.endpoint().history_memory_policy = rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
     // What got lost is said again soon: big messages lose fragments in small socket buffers.
@@ -347,9 +353,11 @@ std::shared_ptr<transports::UDPv4TransportDescriptor> udp_over(
   return udp;
 }
 
-rtps::Locator_t address(const std::string& ipv4) {
+/// Port 0: all that participants on that machine may have.
+rtps::Locator_t address(const std::string& ipv4, int port = 0) {
   rtps::Locator_t locator;
   rtps::IPLocator::setIPv4(locator, ipv4);
+  rtps::IPLocator::setPhysicalPort(locator, static_cast<std::uint16_t>(port));
   return locator;
 }
 
@@ -367,9 +375,9 @@ fast::DomainParticipantQos qos_of(const ParticipantOptions& options) {
   auto& builtin = qos.wire_protocol().builtin;
   // Named peers replace the multicast announcement, so it is named as well. Peers limited to this
   // machine listen to no multicast.
-  for (const char* peer : {"127.0.0.1", "239.255.0.1"}) {
-    builtin.initialPeersList.push_back(address(peer));
-  }
+  builtin.initialPeersList.push_back(address("127.0.0.1"));
+  builtin.initialPeersList.push_back(
+      address("239.255.0.1", kMulticastPort + kPortsOfDomain * options.domain));
   for (const std::string& peer : options.peers) {
     builtin.initialPeersList.push_back(address(peer));
   }
@@ -446,7 +454,7 @@ class FastParticipant final : public Participant, fast::DomainParticipantListene
     return known_.endpoint(guid);
   }
   [[nodiscard]] Rmw rmw_of(const ParticipantId& peer) const override { return known_.rmw_of(peer); }
-  [[nodiscard]] std::int64_t dropped() const override { return too_long_count(); }
+  [[nodiscard]] std::int64_t dropped() const override { return too_long_count() - before_; }
 
  private:
   Expected<fast::Topic*> topic_of(const std::string& name, const std::string& type) {
@@ -537,6 +545,7 @@ class FastParticipant final : public Participant, fast::DomainParticipantListene
   }
 
   const ParticipantOptions options_;
+  const std::int64_t before_ = too_long_count();  ///< samples dropped in this process
   ParticipantId id_{};
   KnownPeers known_;
   fast::DomainParticipant* participant_ = nullptr;
@@ -551,7 +560,6 @@ class FastParticipant final : public Participant, fast::DomainParticipantListene
 Expected<std::unique_ptr<Participant>> Participant::join(const ParticipantOptions& options) {
   const auto valid = check_here(options);
   if (!valid) return tl::unexpected(valid.error());
-  too_long_count();
   try {
     auto participant = std::make_unique<FastParticipant>(options);
     if (!participant->open()) {

@@ -127,7 +127,8 @@ class Participant {
   [[nodiscard]] virtual std::vector<Endpoint> endpoints() const = 0;
   [[nodiscard]] virtual std::optional<Endpoint> endpoint(const Guid& guid) const = 0;
   [[nodiscard]] virtual Rmw rmw_of(const ParticipantId& peer) const = 0;
-  /// Samples that were too long, counted a moment later, for all participants of this process.
+  /// Samples that were too long, since this participant joined, by all participants of the process;
+  /// counted a moment after they came.
   [[nodiscard]] virtual std::int64_t dropped() const = 0;
 };
 

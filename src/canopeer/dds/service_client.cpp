@@ -36,6 +36,7 @@ class DdsClient final : public RawClient {
                                     const std::string& reply_type) {
     const auto base = node_.dds_name("", service_);
     if (!base) return tl::unexpected(base.error());
+    service_ = *base;
     const std::string mark = new_pair_mark("clientid");
     auto writer = node_.dds_writer("rq" + *base + "Request", request_type, kServiceQos, mark);
     if (!writer) return tl::unexpected(writer.error());
@@ -136,7 +137,7 @@ class DdsClient final : public RawClient {
   }
 
   Node& node_;
-  const std::string service_;
+  std::string service_;  ///< resolved
   const std::chrono::steady_clock::time_point made_ = std::chrono::steady_clock::now();
   std::uint64_t own_ = 0;  ///< tells this client's requests from those of others
   std::mutex mutex_;       ///< of what follows

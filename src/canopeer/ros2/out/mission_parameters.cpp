@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 namespace canopeer::ros {
 namespace {
@@ -41,6 +42,11 @@ ParameterValue value_of(const Json& json) {
   return parameter_value(json.dump());
 }
 
+std::string parameter_name(const std::string& key) {
+  constexpr std::string_view kSite = "ros2.";
+  return key.starts_with(kSite) ? key.substr(kSite.size()) : "mission." + key;
+}
+
 }  // namespace
 
 std::vector<ParameterAccess> mission_parameters(const std::string& settings_json,
@@ -48,11 +54,10 @@ std::vector<ParameterAccess> mission_parameters(const std::string& settings_json
   const Json settings = Json::parse(settings_json, nullptr, false);
   if (!settings.is_object()) return live;
   const std::size_t live_ones = live.size();
-  for (const auto& [name, json] : settings.items()) {
+  for (const auto& [key, json] : settings.items()) {
+    const std::string name = parameter_name(key);
     const auto end = live.begin() + static_cast<std::ptrdiff_t>(live_ones);
-    if (std::any_of(live.begin(), end, [&n = name](const auto& l) { return l.name == n; })) {
-      continue;
-    }
+    if (std::any_of(live.begin(), end, [&](const auto& l) { return l.name == name; })) continue;
     ParameterAccess& access = live.emplace_back();
     access.name = name;
     access.description = "A setting of the mission; see docs/formats.md. It holds for the run.";

@@ -74,6 +74,7 @@ Expected<void> Ros2Watcher::State::open() {
   auto said = Log::make(node, [clock = parts.clock] { return ros_time(clock->now()); });
   if (!said) return fail_in("/rosout", said.error());
   log.emplace(std::move(*said));
+  if (!parts.settings.enabled) return {};  // what has no topic is not told
   auto progress_publisher = node.advertise<std_msgs::String>("~/progress", kLatchedQos);
   if (!progress_publisher) return fail_in("~/progress", progress_publisher.error());
   progress_out = std::move(*progress_publisher);
