@@ -61,6 +61,15 @@ Allowed room_table() {
   return allowed;
 }
 
+std::set<std::string> open_rooms() {
+  std::set<std::string> rooms;
+  for (const auto& row : rows_under("Rooms")) {
+    if (row.at(1).find("(open)") == std::string::npos) continue;
+    rooms.insert(words_of(row.at(0)).at(0) + "/" + words_of(row.at(1)).at(0));
+  }
+  return rooms;
+}
+
 Allowed closure(const Allowed& allowed) {
   Allowed closed;
   for (const auto& [name, direct] : allowed) reach(allowed, name, closed[name]);

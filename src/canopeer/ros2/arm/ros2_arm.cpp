@@ -71,7 +71,6 @@ Configuration Ros2Arm::configuration() const {
   return q;
 }
 
-/// The error: where the arm is is not known.
 Expected<void> Ros2Arm::fresh() const {
   if (auto ok = parts_.clock.check(); !ok) return ok;
   const auto silent = parts_.joints.silent(settings_.max_silence_s);

@@ -80,6 +80,7 @@ CameraFeed::Parts feed_parts(const Node& node, const Ros2CameraSettings& setting
     return "";
   };
   parts.mission_time_s = around.mission_time_s;
+  parts.alive = around.alive;
   return parts;
 }
 

@@ -19,7 +19,8 @@ struct CameraSurroundings {
   std::function<double(Stamp)> mission_time_s;  ///< of a stamp by the clock of joint states
   double min_range_m = 0.15;                    ///< nearer and farther surfaces give no return
   double max_range_m = 3.0;
-  double tf_span_s = 10.0;  ///< how far back tf is remembered
+  double tf_span_s = 10.0;                  ///< how far back tf is remembered
+  std::function<Expected<void>()> alive{};  ///< see CameraFeed::Parts
 };
 
 /// The camera on ROS 2 topics, as a mission sees it. Thread-safe.
