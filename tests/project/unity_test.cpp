@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 std::map<std::string, std::string> unnamed_names(const fs::path& file) {
   static const std::regex kConstant(R"(^(?:inline )?constexpr .*?\b(k[A-Z]\w*))");
   static const std::regex kType(
-      R"(^(?:struct|class|enum class|union|using) (?!namespace|std::|nlohmann::)(\w+))");
+      R"(^(?:struct|class|enum class|union|using) (?!namespace|std::|nlohmann::)(?:\w+::)*(\w+))");
   std::map<std::string, std::string> names;
   bool unnamed = false;
   for (const std::string& line : lines_of(file)) {

@@ -44,7 +44,10 @@ class Ros2ArmTest : public ::testing::Test {
       };
     }
     arm_ = must(Ros2Arm::make({*node_, test_robot(), *joints_, clock_, person}, settings));
-    ASSERT_TRUE(eventually([&] { return arm_->ready() && joints_->last().has_value(); }));
+    ASSERT_TRUE(eventually([&] {
+      return arm_->ready() && joints_->last().has_value() &&
+             !robot_node_->subscribers_of(std::string(kAction) + "/_action/feedback").empty();
+    }));
   }
 
   static std::vector<double> numbers(const Configuration& q) {

@@ -73,7 +73,7 @@ TEST(Ros2Check, JointNamesThatDoNotFit) {
   settings.joint_names = {{"elbow_joint", "ur_elbow"}};
   EXPECT_FALSE(judged(heard, settings).any_wrong());
   heard.positions["gripper"] = 0.0;
-  EXPECT_SAID(judged(heard, settings), "notice joint names: all 6 are said; so are others");
+  EXPECT_SAID(judged(heard, settings), "ok joint names: all 6 are said; so are others");
 }
 
 TEST(Ros2Check, JointsBeyondLimitsInDegreesOrNoNumbers) {
@@ -126,7 +126,9 @@ TEST(Ros2Check, Topics) {
   ListenedTopic reliable = depth_topic();
   reliable.reliable = true;
   EXPECT_SAID(judge(reliable, {publisher(false)}), "they never meet");
-  EXPECT_SAID(judge(depth_topic(), {publisher(true), publisher(true)}), "two drivers");
+  Endpoint other = publisher(true);
+  other.guid[0] = 1;
+  EXPECT_SAID(judge(depth_topic(), {publisher(true), other}), "two drivers");
   ListenedTopic silent = depth_topic();
   silent.count = 0;
   EXPECT_SAID(judge(silent, {publisher(true)}), "wrong depth: /depth is published, but nothing");
@@ -168,6 +170,8 @@ TEST(Ros2Check, Clocks) {
   EXPECT_SAID(judge(0.001, 1.3), "ros2.camera.time_offset_s to 1.30");
   EXPECT_FALSE(judge(0.001, 1.3, 1.27).any_wrong());
   EXPECT_SAID(judge(0.001, -0.2), "about 0.20 s ahead of");
+  EXPECT_SAID(judge(0.001, -0.03), "notice clocks");
+  EXPECT_SAID(judge(0.001, -0.03), "to -0.03 at least: --move measures it");
   EXPECT_SAID(judge(-0.2, -0.17), "notice clocks: joint states are 200 ms from the future");
   Findings findings;
   judge_sim_time(true, false, false, findings);
@@ -265,7 +269,7 @@ TEST(Ros2Check, LooksAroundAreNearFreeAndDifferent) {
   const CollisionChecker checker(robot, {1.0, 0.0});
   const Configuration home = robot.home("side_1");
   const auto looks = looks_around(robot, checker, home);
-  ASSERT_GE(looks.size(), 10u);
+  ASSERT_GE(looks.size(), 7u);
   const Pose T_base_home = robot.T_base_camera(home);
   double turned = 0.0;
   for (const Configuration& look : looks) {
@@ -287,9 +291,12 @@ TEST(Ros2Check, WordsOfAnEstimate) {
   estimate.frames = {{0.003, 0.001, 500}, {0.004, 0.001, 500}};
   estimate.all = {0.0035, 0.001, 1000};
   Findings findings;
-  tell_hand_eye(estimate, 0.02, false, findings);
+  Pose T_frame_camera = Pose::Identity();
+  T_frame_camera.translation() = Vec3(0.1, 0.0, 0.0);
+  tell_hand_eye(estimate, {T_frame_camera, 0.02, false}, findings);
   EXPECT_SAID(findings, "wrong hand-eye: the camera sits 22.4 mm (+- 0.6)");
-  EXPECT_SAID(findings, "put translation [0.0100, 0.0000, -0.0200] m");
+  EXPECT_SAID(findings,
+              "camera_mounting: {xyz_m: [0.1100, 0.0000, -0.0200], rpy_deg: [0.00, 0.00, 0.00]}");
   EXPECT_SAID(findings, "ok time offset");
   EXPECT_SAID(findings,
               "disagree by 3.5 mm, with what was found by 1.0 mm; each, in mm: 3.0>1.0 "
@@ -298,7 +305,7 @@ TEST(Ros2Check, WordsOfAnEstimate) {
   estimate.time_offset_s = -0.05;
   estimate.hand_eye_known = estimate.hand_eye_wrong = false;
   Findings other;
-  tell_hand_eye(estimate, 0.02, false, other);
+  tell_hand_eye(estimate, {T_frame_camera, 0.02, false}, other);
   EXPECT_SAID(other,
               "too late by the clock of joint states: set ros2.camera.time_offset_s to -0.030");
   EXPECT_SAID(other, "notice hand-eye");

@@ -91,7 +91,8 @@ TEST(MissionOverRos2, EndsWithItsResultsWhenTheRobotIsKilled) {
   const TemporaryDirectory directory;
   ChildProgram robot(robot_words(own_domain()));
   ChildProgram mission(
-      mission_words(own_domain(), directory / "run", {"--time-per-segment", "300"}));
+      mission_words(own_domain(), directory / "run",
+                    {"--time-per-segment", "300", "--set", "ros2.arm.max_silence_s=2"}));
   ASSERT_TRUE(eventually([&] { return has_moved(directory / "run") || !mission.runs(); }));
   robot.send(SIGKILL);
   EXPECT_EQ(mission.wait(), 1) << mission.err();

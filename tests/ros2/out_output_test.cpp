@@ -76,9 +76,14 @@ TEST_F(Ros2OutputTest, StopsByService) {
   EXPECT_EQ(told->steering().ask({}).kind, SteeringWord::Kind::stop);
 }
 
-TEST_F(Ros2OutputTest, TellsNothingWhereNothingIsToBeTold) {
+TEST_F(Ros2OutputTest, SpeaksOnRosoutOnlyWhereNothingElseIsToBeTold) {
   settings_.output.enabled = false;
-  EXPECT_EQ(output()->watcher(), nullptr);
+  const auto told = output();
+  const Heard<rcl_interfaces::Log> log(*person_, "/rosout", Qos{true, true, 100});
+  told->watcher()->on_event(RunBegun{0.0, 1, 60.0, false, {}});
+  EXPECT_TRUE(log.comes());
+  EXPECT_TRUE(person_->publishers_of("/canopeer/progress").empty());
+  EXPECT_TRUE(person_->publishers_of("/tf").empty());
 }
 
 }  // namespace

@@ -265,6 +265,7 @@ class FastWriter final : public Writer, fast::DataWriterListener {
     Octets octets{payload, {}};
     rtps::WriteParams parameters;
     if (related) parameters.related_sample_identity(from_identity(*related));
+    if (heartbeat_first_) writer_->assert_liveliness();
 #if CANOPEER_FAST_DDS >= 3
     const bool written = writer_->write(&octets, parameters) == kOk;
 #else
@@ -284,6 +285,7 @@ class FastWriter final : public Writer, fast::DataWriterListener {
 
   fast::Publisher& publisher_;
   std::function<void()> on_match_;
+  bool heartbeat_first_ = false;
   Matched matched_;
   std::mutex gate_;  ///< held while `on_match_` runs
   bool closed_ = false;

@@ -28,7 +28,9 @@ std::vector<std::string> not_found_yet(CheckBench& bench) {
   for (const auto& topic : Ros2Camera::topics(bench.settings.camera)) {
     miss(missing_topic(*bench.node, topic.name, topic.type));
   }
-  miss(missing_trajectory_action(*bench.node, bench.settings.arm.action));
+  if (!bench.arm->ready()) {
+    miss(missing_trajectory_action(*bench.node, bench.settings.arm.action));
+  }
   return missing;
 }
 
@@ -84,25 +86,47 @@ void judge_camera(CheckBench& bench, double listened_s, Findings& findings) {
            bench.frame_id(), findings);
 }
 
+/// Counts for a while, and on until something came of everything that somebody publishes. How long,
+/// s.
+double listen(CheckBench& bench, const Ros2CheckOptions& options,
+              const std::function<bool()>& stop) {
+  using Steady = std::chrono::steady_clock;
+  const auto began = Steady::now();
+  const auto passed_s = [&] {
+    return std::chrono::duration<double>(Steady::now() - began).count();
+  };
+  bench.count_from_now();
+  const auto silent = [&] {
+    for (const ListenedTopic& topic : bench.camera_topics()) {
+      if (topic.count == 0 && !bench.node->publishers_of(topic.topic).empty()) return true;
+    }
+    return false;
+  };
+  const double longest_s = options.listen_s + bench.settings.discovery_s;
+  while (!stop() && (passed_s() < options.listen_s || (silent() && passed_s() < longest_s))) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return passed_s();
+}
+
 void judge_all(CheckBench& bench, const Ros2CheckOptions& options, Findings& findings) {
   const auto stop = [&] { return options.stop_asked && options.stop_asked(); };
   // What is missing then is said below.
   static_cast<void>(
       wait_for_presence([&] { return not_found_yet(bench); }, bench.settings.discovery_s, stop));
-  bench.count_from_now();
-  std::this_thread::sleep_for(std::chrono::duration<double>(options.listen_s));
+  const double listened_s = listen(bench, options, stop);
   judge_peers(bench.node->participant().peers(), bench.node_ear.nodes(), bench.node->options(),
               findings);
   judge_sim_time(bench.settings.use_sim_time, !bench.node->publishers_of("/clock").empty(),
                  bench.clock->running(), findings);
-  judge_joints(bench, options.listen_s, findings);
+  judge_joints(bench, listened_s, findings);
   judge_machines(bench, findings);
-  judge_camera(bench, options.listen_s, findings);
+  judge_camera(bench, listened_s, findings);
   if (!options.move || stop()) return;
   if (findings.any_wrong()) {
     findings.notice("motions", "none while something is wrong");
   } else {
-    check_by_moving(bench, findings);
+    check_by_moving(bench, options.looks, findings);
   }
 }
 

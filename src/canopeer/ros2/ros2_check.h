@@ -21,6 +21,7 @@ struct Ros2Finding {
 struct Ros2CheckOptions {
   double listen_s = 3.0;  ///< how long rates are measured
   bool move = false;      ///< moves the arm a little, to check mounting and clock of the camera
+  int looks = 12;         ///< small motions at most, for that
   std::function<void(const Ros2Finding&)> on_finding;  ///< as they are made
   std::function<bool()> stop_asked;                    ///< a motion under way ends; may be empty
 };

@@ -140,12 +140,15 @@ Expected<void> Ros2Site::open_ports() {
   trolley_ = std::move(*trolley);
 
   const CameraIntrinsics& asked = request_.file.simulation.camera;
-  auto camera =
-      Ros2Camera::make(*node_, settings_.camera,
-                       {request_.robot, joints_, [this](Stamp stamp) { return sense_.at(stamp); },
-                        [this] { return clock_->now(); },
-                        [this](Stamp stamp) { return clock_->mission_time_s(stamp); },
-                        asked.min_range_m, asked.max_range_m});
+  CameraSurroundings around{request_.robot,
+                            joints_,
+                            [this](Stamp stamp) { return sense_.at(stamp); },
+                            [this] { return clock_->now(); },
+                            [this](Stamp stamp) { return clock_->mission_time_s(stamp); },
+                            asked.min_range_m,
+                            asked.max_range_m};
+  around.alive = [this] { return arm_->fresh(); };
+  auto camera = Ros2Camera::make(*node_, settings_.camera, around);
   if (!camera) return fail_in("camera", camera.error());
   camera_ = std::move(*camera);
   placing_ = std::make_unique<PlacingCamera>(*camera_, *trolley_);

@@ -37,6 +37,9 @@ class CameraFeed {
     /// Empty: nothing.
     std::function<std::string(const std::string& topic)> odd_publishers;
     std::function<double(Stamp)> mission_time_s;  ///< of a stamp by the clock of joint states
+    /// Asked while a frame is waited for. The error, which ends that: the robot is lost. Empty:
+    /// nobody knows.
+    std::function<Expected<void>()> alive{};
   };
   /// Joints and poses outlive it.
   CameraFeed(const Ros2CameraSettings& settings, Parts parts, const JointHistory& joints,

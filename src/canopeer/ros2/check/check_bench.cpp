@@ -66,7 +66,7 @@ Expected<void> open_machines(CheckBench& bench, const PersonHooks& person) {
       {bench.robot, bench.joints, [&bench](Stamp stamp) { return bench.sense.at(stamp); },
        [&bench] { return bench.clock->now(); },
        [&bench](Stamp stamp) { return bench.clock->mission_time_s(stamp); }, asked.min_range_m,
-       asked.max_range_m});
+       asked.max_range_m, kRemembered_s});
   if (!camera) return tl::unexpected(camera.error());
   bench.camera = std::move(*camera);
   return {};

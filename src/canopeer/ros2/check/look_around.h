@@ -12,7 +12,7 @@ struct LookAroundOptions {
   double turn_rad = 0.22;  ///< about its own x and y
   double roll_rad = 0.4;   ///< about its axis
   double step_m = 0.05;    ///< sideways
-  double max_joint = 0.5;  ///< that a joint moves away from where it was, rad (m)
+  double max_joint = 0.9;  ///< that a joint moves away from where it was, rad (m)
 };
 
 /// Configurations near `q` from which the camera sees much the same at other angles and from other

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stop_token>
+#include <thread>
 
 #include "canopeer/map/distance_field.h"
 #include "canopeer/map/fusion.h"
@@ -16,40 +18,60 @@ namespace {
 const std::string kMotions = "motions";
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-/// Frames for the estimate, with where the camera was said to be.
-class FrameCollection {
+/// A frame's depth, by when it was taken.
+struct DepthThen {
+  Stamp stamp = 0;
+  CameraIntrinsics intrinsics;
+  DepthImage depth;
+};
+
+/// Takes frames while the arm moves, in a thread of its own: the camera keeps the last ones only.
+class MovingFrames {
  public:
-  void add(TimedFrame&& timed) {
-    frames_.push_back({seconds(timed.stamp - zero(timed.stamp)), timed.frame.intrinsics,
-                       std::move(timed.frame.depth)});
-  }
-  /// Of frames from while it moves, at most so many are kept, evenly.
-  void add_moving(std::vector<TimedFrame>&& moving) {
-    for (TimedFrame& timed : moving) moving_.push_back(std::move(timed));
-    while (moving_.size() > kMostMoving) {
-      std::vector<TimedFrame> half;
-      for (std::size_t i = 0; i < moving_.size(); i += 2) half.push_back(std::move(moving_[i]));
-      moving_ = std::move(half);
-    }
-  }
-  std::vector<HandEyeFrame> take() {
-    for (TimedFrame& timed : moving_) add(std::move(timed));
-    moving_.clear();
+  MovingFrames(CameraFeed& feed, Stamp from)
+      : thread_([this, &feed, from](std::stop_token stop) { collect(feed, from, stop); }) {}
+  /// What was taken.
+  [[nodiscard]] std::vector<DepthThen> end() {
+    thread_.request_stop();
+    thread_.join();
     return std::move(frames_);
   }
-  [[nodiscard]] std::size_t still() const { return frames_.size(); }
-  [[nodiscard]] std::size_t moving() const { return moving_.size(); }
-  [[nodiscard]] Stamp zero() const { return zero_.value_or(0); }
 
  private:
-  static constexpr std::size_t kMostMoving = 60;
-  Stamp zero(Stamp first) {
-    if (!zero_) zero_ = first;
-    return *zero_;
+  static constexpr std::int64_t kApart = 100'000'000;  // ns: more a second tell nothing new
+  void collect(CameraFeed& feed, Stamp from, const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      for (TimedFrame& timed : feed.frames_since(from)) {
+        from = timed.stamp;
+        if (!frames_.empty() && timed.stamp < frames_.back().stamp + kApart) continue;
+        frames_.push_back({timed.stamp, timed.frame.intrinsics, std::move(timed.frame.depth)});
+      }
+    }
   }
-  std::optional<Stamp> zero_;  // times count from it: doubles do not hold years to a microsecond
-  std::vector<HandEyeFrame> frames_;
-  std::vector<TimedFrame> moving_;
+  std::vector<DepthThen> frames_;
+  std::jthread thread_;  // last: it begins when all is there
+};
+
+/// All frames for the estimate.
+struct FrameCollection {
+  std::vector<DepthThen> still, moving;
+
+  /// Of those from while it moves so many at most, evenly. Times count from the first frame:
+  /// doubles do not hold years to a microsecond.
+  [[nodiscard]] std::vector<HandEyeFrame> take() {
+    constexpr std::size_t kMostMoving = 40;
+    const std::size_t step = 1 + moving.size() / kMostMoving;
+    const Stamp first = zero();
+    std::vector<HandEyeFrame> frames;
+    const auto add = [&](DepthThen& frame) {
+      frames.push_back({seconds(frame.stamp - first), frame.intrinsics, std::move(frame.depth)});
+    };
+    for (DepthThen& frame : still) add(frame);
+    for (std::size_t i = 0; i < moving.size(); i += step) add(moving[i]);
+    return frames;
+  }
+  [[nodiscard]] Stamp zero() const { return still.front().stamp; }
 };
 
 /// What the first frame shows, to keep clear of.
@@ -78,34 +100,58 @@ class Surroundings {
   CollisionChecker checker_;
 };
 
-/// One motion from where the arm is; frames of it are collected. False: it did not get there.
+/// Takes a frame where the arm stands.
+bool take_still(CheckBench& bench, FrameCollection& frames, Findings& findings) {
+  auto timed = bench.camera->feed().capture();
+  if (!timed) {
+    findings.wrong(kMotions, timed.error().message);
+    return false;
+  }
+  frames.still.push_back({timed->stamp, timed->frame.intrinsics, std::move(timed->frame.depth)});
+  return true;
+}
+
+/// One motion from where the arm is, and frames of it. False: it did not get there.
 bool move_and_watch(CheckBench& bench, const Configuration& to, FrameCollection& frames,
                     Findings& findings) {
-  const Stamp before = bench.joints.newest().value_or(0);
+  const Stamp began = bench.joints.newest().value_or(0);
   JointPath path;
   path.waypoints = {bench.arm->configuration(), to};
-  const auto started = bench.arm->start(path);
-  if (!started) {
-    findings.wrong(kMotions, started.error().message);
-    return false;
+  MovingFrames watch(bench.camera->feed(), began);
+  auto outcome = Expected<MotionOutcome>(MotionOutcome());
+  if (const auto started = bench.arm->start(path); started) {
+    outcome = bench.arm->finish();
+  } else {
+    outcome = tl::unexpected(started.error());
   }
-  const auto outcome = bench.arm->finish();
-  const std::string why = outcome ? outcome->why : outcome.error().message;
+  for (DepthThen& frame : watch.end()) frames.moving.push_back(std::move(frame));
   if (!outcome || outcome->end != MotionEnd::arrived) {
-    findings.wrong(kMotions, "the arm did not arrive: " + why);
+    findings.wrong(kMotions,
+                   "the arm did not arrive: " + (outcome ? outcome->why : outcome.error().message));
     return false;
   }
-  std::vector<TimedFrame> moving = bench.camera->feed().frames_since(before);
-  const auto still_since = bench.joints.still_since(2e-3);
-  std::erase_if(moving, [&](const TimedFrame& f) { return still_since && f.stamp > *still_since; });
-  frames.add_moving(std::move(moving));
-  auto frame = bench.camera->feed().capture();
-  if (!frame) {
-    findings.wrong(kMotions, frame.error().message);
-    return false;
+  return take_still(bench, frames, findings);
+}
+
+/// From look to look where the way is free, else by where it began.
+std::vector<Configuration> round_trip(const CollisionChecker& checker, const Configuration& home,
+                                      const std::vector<Configuration>& looks) {
+  std::vector<Configuration> stops;
+  for (const Configuration& look : looks) {
+    if (!stops.empty() && !checker.edge_free(stops.back(), look)) stops.push_back(home);
+    stops.push_back(look);
   }
-  frames.add(std::move(*frame));
-  return true;
+  stops.push_back(home);
+  return stops;
+}
+
+/// What a robot file says as camera_mounting (config/robot_file makes a link of it).
+Pose mounting_of(const RobotModel& robot) {
+  const std::string& frame = robot.setup().camera_frame;
+  for (const Joint& joint : robot.description().joints) {
+    if (joint.child == frame && frame.ends_with("_as_mounted")) return joint.T_parent_joint;
+  }
+  return Pose::Identity();
 }
 
 std::string pose_residuals(const HandEyeEstimate& estimate) {
@@ -119,7 +165,8 @@ std::string pose_residuals(const HandEyeEstimate& estimate) {
   return text;
 }
 
-std::string vector_text(const Vec3& v, int decimals) {
+std::string numbers_text(Vec3 v, int decimals) {
+  v += Vec3::Zero();  // no -0
   return "[" + figure(v.x(), decimals) + ", " + figure(v.y(), decimals) + ", " +
          figure(v.z(), decimals) + "]";
 }
@@ -132,7 +179,7 @@ Vec3 fixed_angles_deg(const Eigen::Matrix3d& R) {
 
 }  // namespace
 
-void tell_hand_eye(const HandEyeEstimate& estimate, double time_offset_s, bool from_tf,
+void tell_hand_eye(const HandEyeEstimate& estimate, const AssumedCamera& assumed,
                    Findings& findings) {
   const auto& all = estimate.all;
   const std::string mounting = figure(1e3 * estimate.translation_m, 1) + " mm (+- " +
@@ -144,13 +191,14 @@ void tell_hand_eye(const HandEyeEstimate& estimate, double time_offset_s, bool f
                     "the frames do not tell it: the camera could not turn about two "
                     "axes, or sees too little; start elsewhere");
   } else if (estimate.hand_eye_wrong) {
-    findings.wrong(
-        "hand-eye",
-        "the camera sits " + mounting + " beside its calibrated place: put translation " +
-            vector_text(estimate.T_said_true.translation(), 4) + " m and rotation " +
-            vector_text(fixed_angles_deg(estimate.T_said_true.linear()), 2) +
-            " degrees (about x, y, z of its optical frame) behind " +
-            (from_tf ? "the transform that tf has for it" : "camera_mounting in the robot file"));
+    const Pose T_frame_camera = assumed.T_frame_camera * estimate.T_said_true;
+    const std::string numbers =
+        "{xyz_m: " + numbers_text(T_frame_camera.translation(), 4) +
+        ", rpy_deg: " + numbers_text(fixed_angles_deg(T_frame_camera.linear()), 2) + "}";
+    findings.wrong("hand-eye",
+                   "the camera sits " + mounting + " beside its calibrated place; " +
+                       (assumed.pose_from_tf ? "move its optical frame in tf by " + numbers
+                                             : "in the robot file: camera_mounting: " + numbers));
   } else {
     findings.ok("hand-eye", "right within " + mounting);
   }
@@ -165,7 +213,7 @@ void tell_hand_eye(const HandEyeEstimate& estimate, double time_offset_s, bool f
                    "images are stamped " + clock +
                        (estimate.time_offset_s > 0.0 ? " too early" : " too late") +
                        " by the clock of joint states: set ros2.camera.time_offset_s to " +
-                       figure(time_offset_s + estimate.time_offset_s, 3));
+                       figure(assumed.time_offset_s + estimate.time_offset_s, 3));
   } else {
     findings.ok("time offset", "right within " + clock);
   }
@@ -183,54 +231,43 @@ void tell_hand_eye(const HandEyeEstimate& estimate, double time_offset_s, bool f
   }
 }
 
-void check_by_moving(CheckBench& bench, Findings& findings) {
-  if (bench.settings.dry_run) {
-    findings.notice(kMotions, "none in a dry run");
-    return;
-  }
-  if (!bench.arm->ready()) {
-    findings.wrong(kMotions, "there is nobody to move the arm");
-    return;
-  }
-  FrameCollection frames;
+void check_by_moving(CheckBench& bench, int most_looks, Findings& findings) {
+  if (bench.settings.dry_run) return findings.notice(kMotions, "none in a dry run");
   auto first = bench.camera->feed().capture();
-  if (!first) {
-    findings.wrong(kMotions, first.error().message);
-    return;
-  }
+  if (!first) return findings.wrong(kMotions, first.error().message);
   const Configuration home = bench.arm->configuration();
   const Surroundings around(bench.robot, first->frame, home, bench.sense.now());
-  frames.add(std::move(*first));
-  const auto looks = looks_around(bench.robot, around.checker(), home);
+  auto looks = looks_around(bench.robot, around.checker(), home);
   constexpr std::size_t kFewLooks = 4;
   if (looks.size() < kFewLooks) {
-    findings.wrong(kMotions, "only " + std::to_string(looks.size()) +
-                                 " of the small motions are free here: move the arm to where it "
-                                 "has more room, 0.3 to 1 m before something that stands still");
-    return;
+    return findings.wrong(kMotions, "only " + std::to_string(looks.size()) +
+                                        " of the small motions are free here: move the arm to "
+                                        "where it has more room, 0.3 to 1 m before something that "
+                                        "stands still");
   }
-  std::size_t done = 0;
-  for (const Configuration& look : looks) {
-    if (!move_and_watch(bench, look, frames, findings)) break;
-    if (!move_and_watch(bench, home, frames, findings)) break;
-    ++done;
+  looks.resize(std::min(looks.size(), static_cast<std::size_t>(most_looks)));
+  FrameCollection frames;
+  if (!take_still(bench, frames, findings)) return;
+  const auto stops = round_trip(around.checker(), home, looks);
+  for (const Configuration& stop : stops) {
+    if (!move_and_watch(bench, stop, frames, findings)) return;
   }
-  if (done < looks.size()) return;  // said already
-  findings.ok(kMotions, std::to_string(2 * done) + " small ones; " +
-                            std::to_string(frames.still()) + " frames where the arm stood, " +
-                            std::to_string(frames.moving()) + " while it moved");
+  findings.ok(kMotions, std::to_string(stops.size()) + " small ones; " +
+                            std::to_string(frames.still.size()) + " frames where the arm stood, " +
+                            std::to_string(frames.moving.size()) + " while it moved");
   const Stamp zero = frames.zero();
   const std::string frame_id = bench.frame_id();
-  const auto estimate = estimate_hand_eye(frames.take(), [&](double time_s) -> std::optional<Pose> {
+  const auto pose_at = [&](double time_s) -> std::optional<Pose> {
     const auto pose = bench.camera->feed().pose_at(zero + nanoseconds(time_s), frame_id);
     if (!pose) return std::nullopt;
     return *pose;
-  });
-  if (!estimate) {
-    findings.notice("hand-eye", estimate.error().message);
-    return;
-  }
-  tell_hand_eye(*estimate, bench.settings.camera.time_offset_s, bench.settings.camera.pose == "tf",
+  };
+  const auto estimate = estimate_hand_eye(frames.take(), pose_at);
+  if (!estimate) return findings.notice("hand-eye", estimate.error().message);
+  const bool from_tf = bench.settings.camera.pose == "tf";
+  tell_hand_eye(*estimate,
+                {from_tf ? Pose::Identity() : mounting_of(bench.robot),
+                 bench.settings.camera.time_offset_s, from_tf},
                 findings);
 }
 

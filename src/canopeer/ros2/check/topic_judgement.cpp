@@ -90,9 +90,11 @@ void judge_topic(const ListenedTopic& topic, const std::vector<Endpoint>& publis
   const std::string size = topic.octets == 0 ? "" : ", " + kib(topic.octets);
   std::string text = topic.topic + ": " + figure(static_cast<double>(topic.count) / listened_s, 1) +
                      " Hz" + encoding + size;
-  if (publishers.size() > 1) {
-    findings.notice(topic.what, text + "; " + std::to_string(publishers.size()) +
-                                    " publish it: are two drivers running?");
+  std::set<ParticipantId> programs;
+  for (const Endpoint& publisher : publishers) programs.insert(participant_of(publisher.guid));
+  if (programs.size() > 1) {
+    findings.notice(topic.what, text + "; " + std::to_string(programs.size()) +
+                                    " programs publish it: are two drivers running?");
     return;
   }
   findings.ok(topic.what, text);
