@@ -117,7 +117,7 @@ void judge_buffers(const std::vector<ListenedTopic>& topics, const ReceiveBuffer
     return;
   }
   findings.notice(what, said + ", images are " + kib(largest) + ": " +
-                            (reliable ? "many have to be sent again" : "many get lost") +
+                            (reliable ? "many may have to be sent again" : "many may get lost") +
                             "; sudo sysctl -w net.core.rmem_default=" + std::to_string(wanted) +
                             " net.core.rmem_max=" + std::to_string(wanted) +
                             (reliable ? "" : ", or set ros2.camera.reliable to true"));
