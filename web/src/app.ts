@@ -44,8 +44,9 @@ export class App implements Actions {
     this.panels.camera.pair.onColor = (image, view) => this.scene?.setPicture(image, this.timeline.view(view));
     this.connection = new Connection(socketUrl(location), {
       begins: () => this.begin(),
-      message: (message) => this.take(message),
+      frame: (message) => this.take(message),
       damaged: (why) => this.takeDamaged(why),
+      complete: () => this.complete,
       state: (state) => {
         this.connectionState = state;
         this.sayState();
@@ -73,7 +74,13 @@ export class App implements Actions {
   }
 
   get live(): boolean {
-    return (this.timeline.hello?.live ?? false) && !this.timeline.end;
+    return this.timeline.reader.live && !this.timeline.end;
+  }
+
+  /** Nothing more is to come. */
+  private get complete(): boolean {
+    const { end, reader, arrived, hello } = this.timeline;
+    return end !== null || (hello !== null && !reader.live && arrived === 1);
   }
 
   seek(t: number): void {
@@ -149,18 +156,18 @@ export class App implements Actions {
     this.shownChanges = -1;
   }
 
-  private take(message: Message): void {
-    this.timeline.append(message);
-    if (message.type === "hello") {
+  private take(message: Message | null): void {
+    if (message?.type !== "reader") ++this.timeline.taken;
+    if (message) this.timeline.append(message);
+    if (message?.type === "hello") {
       this.scene?.load(this.timeline);
-      if (message.live && this.first && !this.hasGoal()) this.playback.follow = true;
+      if (this.live && this.first && !this.hasGoal()) this.playback.follow = true;
       this.first = false;
-      this.sayState();
     }
-    if (message.type === "end") {
-      this.sayState();
+    if (message?.type === "end") {
       if (this.playback.follow) this.playback.seek(this.timeline.duration, this.timeline);
     }
+    if (this.complete || this.timeline.taken % 50 === 1) this.sayState();
     this.playback.arrived(this.timeline);
     this.reachGoal();
     this.wake();
@@ -168,6 +175,7 @@ export class App implements Actions {
 
   private takeDamaged(why: string): void {
     console.warn(why);
+    ++this.timeline.taken;
     this.timeline.append({ type: "log", t: this.timeline.newest, level: "notice", text: `A message could not be read: ${why}` });
     this.wake();
   }
@@ -223,28 +231,21 @@ export class App implements Actions {
   }
 
   private sayState(): void {
-    const { hello, end } = this.timeline;
-    const state = this.connectionState;
-    const complete = end !== null;
-    switch (state.is) {
-      case "connecting":
-        this.panels.say(hello ? "lost" : "connecting", hello ? "" : "Connecting …");
-        break;
-      case "open":
-        if (complete) this.panels.say(end.interrupted ? "cut off" : hello?.live ? "done" : "replay", "");
-        else this.panels.say(hello?.live ? "live" : hello ? "replay" : "connecting", "");
-        break;
-      case "done":
-        if (complete) this.panels.say(end.interrupted ? "cut off" : hello?.live ? "done" : "replay", "");
-        else this.panels.say("cut off", hello ? "This run was cut off: its replay has no end." : "There is nothing to show.");
-        break;
-      case "lost":
-        if (complete || (hello && !hello.live)) this.panels.say("replay", complete ? "" : "The connection broke; trying again.");
-        else this.panels.say("lost", `No connection to Canopeer. Is it still running? Next try in ${state.again_s} s.`, "warning");
-        break;
-      case "mismatch":
-        this.panels.say("lost", `This page reads protocol ${kProtocol}, the program speaks ${state.theirs}. Reload the page; if that does not help, it comes from another version.`, "warning");
-        break;
+    const { is } = this.connectionState;
+    const { hello, reader, end, arrived } = this.timeline;
+    if (this.connectionState.is === "mismatch") {
+      const { theirs } = this.connectionState;
+      this.panels.say("lost", `This page reads protocol ${kProtocol}, the program speaks ${theirs}. Reload the page; if that does not help, it comes from another version.`, "warning");
+    } else if (end) {
+      this.panels.say(end.interrupted ? "cut off" : reader.live ? "done" : "replay", "");
+    } else if (this.complete) {
+      this.panels.say("cut off", "This run was cut off: its replay has no end.");
+    } else if (this.connectionState.is === "lost") {
+      this.panels.say("lost", `No connection to Canopeer. Is it still running? Next try in ${this.connectionState.again_s} s.`, "warning");
+    } else if (is === "connecting" || !hello) {
+      this.panels.say("connecting", "Connecting …");
+    } else {
+      this.panels.say(reader.live ? "live" : "replay", arrived < 1 ? `Loading: ${Math.floor(100 * arrived)} %` : "");
     }
   }
 

@@ -5,21 +5,21 @@ import { kProtocol, readFrame } from "./data/protocol.ts";
 export type ConnectionState =
   | { is: "connecting" }
   | { is: "open" }
+  | { is: "done" } // closed, and nothing more is to come
   | { is: "lost"; again_s: number }
-  | { is: "done" } // all of a replay has come
   | { is: "mismatch"; theirs: number };
 
 export interface ConnectionEvents {
   /** A stream begins, from its first message. */
   begins(): void;
-  message(message: Message): void;
+  /** A frame came; null: of a type this page does not know. */
+  frame(message: Message | null): void;
   state(state: ConnectionState): void;
   /** A frame that could not be read. */
   damaged(why: string): void;
+  /** Whether anything more is to be expected. */
+  complete(): boolean;
 }
-
-/** Closed like this, the server has nothing more to say. */
-const kNormalClosure = 1000;
 
 /** The WebSocket that brings a run; reconnects when it is lost. */
 export class Connection {
@@ -60,25 +60,22 @@ export class Connection {
     socket.onmessage = ({ data }) => {
       if (data instanceof ArrayBuffer && !this.finished) this.take(new Uint8Array(data));
     };
-    socket.onclose = ({ code }) => {
-      if (this.finished) return;
-      if (code === kNormalClosure) this.events.state({ is: "done" });
-      else this.retry();
+    socket.onclose = () => {
+      if (!this.finished) this.retry();
     };
   }
 
   private take(frame: Uint8Array): void {
     try {
       const message = readFrame(frame);
-      if (!message) return;
       this.attempts = 0;
-      if (message.type === "hello" && message.protocol !== kProtocol) {
+      if (message?.type === "hello" && message.protocol !== kProtocol) {
         this.finished = true;
         this.events.state({ is: "mismatch", theirs: message.protocol });
         this.socket?.close();
         return;
       }
-      this.events.message(message);
+      this.events.frame(message);
     } catch (error) {
       if (!(error instanceof FrameError)) throw error;
       this.events.damaged(error.message);
@@ -86,6 +83,10 @@ export class Connection {
   }
 
   private retry(): void {
+    if (this.events.complete()) {
+      this.events.state({ is: "done" });
+      return;
+    }
     const again_s = Math.min(10, 1 + this.attempts++);
     this.events.state({ is: "lost", again_s });
     setTimeout(() => this.open(), 1000 * again_s);

@@ -14,7 +14,7 @@ function refuses(bytes: Uint8Array, why: RegExp): void {
 }
 
 test("a hello tells of the run", () => {
-  const hello = readFrame(frame({ type: "hello", protocol: 1, live: true, simulated: true, controls: false, mission: "m", planner: "vmp", seed: 3, segments: 8, resolution_m: 0.02 }));
+  const hello = readFrame(frame({ type: "hello", protocol: 1, simulated: true, mission: "m", planner: "vmp", seed: 3, segments: 8, resolution_m: 0.02 }));
   assert.ok(hello?.type === "hello");
   assert.equal(hello.mission, "m");
   assert.equal(hello.seed, "3");

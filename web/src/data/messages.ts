@@ -8,12 +8,20 @@ export type Vec3 = [number, number, number];
 /** What a view, a node of the graph or a target is after. */
 export type Kind = "none" | "home" | "roi" | "occupied" | "border" | "random";
 
+/** What the server says to this page alone, before all else. */
+export interface Reader {
+  type: "reader";
+  live: boolean;
+  /** This page may steer. */
+  controls: boolean;
+  /** So many frames are there already. */
+  frames: number;
+}
+
 export interface Hello {
   type: "hello";
   protocol: number;
-  live: boolean;
   simulated: boolean;
-  controls: boolean;
   mission: string;
   planner: string;
   seed: string;
@@ -249,6 +257,7 @@ export interface Lost {
 }
 
 export type Message =
+  | Reader
   | Hello
   | Robot
   | Truth

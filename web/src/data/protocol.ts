@@ -25,6 +25,12 @@ const kNodeKinds: Kind[] = ["none", "roi", "occupied", "border"];
 
 /** The types this page knows, each with its reader. */
 const kReaders: Record<string, (f: Fields, o: Octets) => Message> = {
+  reader: (f) => ({
+    type: "reader",
+    live: f.flagOr("live", false),
+    controls: f.flagOr("controls", false),
+    frames: f.countOr("frames", 0),
+  }),
   hello: readHello,
   robot: readRobot,
   truth: readTruth,
@@ -135,9 +141,7 @@ function readHello(f: Fields): Hello {
   return {
     type: "hello",
     protocol: f.integer("protocol"),
-    live: f.flagOr("live", false),
     simulated: f.flagOr("simulated", false),
-    controls: f.flagOr("controls", false),
     mission: f.textOr("mission", ""),
     planner: f.textOr("planner", ""),
     seed: String(f.numberOr("seed", "")),

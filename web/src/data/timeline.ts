@@ -11,6 +11,7 @@ import type {
   Message,
   Picture,
   Plan,
+  Reader,
   Robot,
   Segment,
   Truth,
@@ -64,6 +65,7 @@ export function edgeEnds(key: number): [number, number] {
  * time. What the run was like after any step can be asked at once.
  */
 export class Timeline {
+  reader: Reader = { type: "reader", live: false, controls: false, frames: 0 };
   hello: Hello | null = null;
   robot: Robot | null = null;
   truth: Truth | null = null;
@@ -83,6 +85,8 @@ export class Timeline {
   readonly nodes = new History<GraphNode>();
   readonly edges = new History<true>();
   readonly visited = new History<true>();
+  /** Frames that came, those that could not be read too. */
+  taken = 0;
   /** Grows with everything that is appended. */
   changes = 0;
   private readonly times: number[] = [];
@@ -92,6 +96,11 @@ export class Timeline {
   /** The time of the newest message. */
   get newest(): number {
     return this.times.at(-1) ?? 0;
+  }
+
+  /** The share of what is there already that has come, 0 … 1. */
+  get arrived(): number {
+    return this.reader.frames > 0 ? Math.min(1, this.taken / this.reader.frames) : 1;
   }
 
   /** How far the run can be played. */
@@ -129,6 +138,10 @@ export class Timeline {
   }
 
   append(message: Message): void {
+    if (message.type === "reader") {
+      this.reader = message;
+      return;
+    }
     const said = "t" in message ? message.t : this.newest;
     // Time does not run backwards, whatever a message says.
     const t = Math.max(this.newest, said);

@@ -43,8 +43,8 @@ export class Controls {
   }
 
   update({ timeline }: Moment, open: boolean): void {
-    const { hello, end } = timeline;
-    this.element.hidden = !(open && hello?.controls && hello.live && !end);
+    const { hello, reader, end } = timeline;
+    this.element.hidden = !(open && reader.controls && reader.live && !end);
     this.pace.hidden = !hello?.simulated;
   }
 }

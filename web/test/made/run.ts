@@ -11,8 +11,6 @@ import { robotHead } from "./robot.ts";
 export interface MadeOptions {
   segments: number;
   views: number; // in each segment
-  live: boolean;
-  controls: boolean;
   pictures: boolean;
   /** Leaves out the end, as of a killed run. */
   killed: boolean;
@@ -22,8 +20,7 @@ export interface MadeOptions {
 }
 
 const kDefaults: MadeOptions = {
-  segments: 4, views: 12, live: false, controls: false,
-  pictures: true, killed: false, leafVoxels: 60, plants: 6,
+  segments: 4, views: 12, pictures: true, killed: false, leafVoxels: 60, plants: 6,
 }; // prettier-ignore
 
 const kResolution_m = 0.01;
@@ -54,7 +51,7 @@ class Maker {
     this.robot = readFrame(robot) as Robot;
     this.frames.push(
       frame({
-        type: "hello", protocol: 1, live: options.live, simulated: true, controls: options.controls, mission: "made_up",
+        type: "hello", protocol: 1, simulated: true, mission: "made_up",
         planner: "vmp", seed: 7, canopeer: "0.0.0", segments: options.segments, segment_time_s: 60, resolution_m: kResolution_m,
       }), // prettier-ignore
       robot,
