@@ -1,4 +1,4 @@
-# cmake -DPACKAGE=<ros2> -DPROGRAM=<canopeer> -DFOLDER=<folder> -P build_package.cmake
+# cmake -DPACKAGE=<ros2> -DPROGRAM=<canopeer> [-DEMULATOR=<command>] -DFOLDER=<folder> -P build_package.cmake
 # Builds and installs the ament package as a ROS 2 workspace would, and looks at what is there then.
 if(NOT EXISTS /usr/share/ament_cmake/cmake/ament_cmakeConfig.cmake AND NOT DEFINED ENV{AMENT_PREFIX_PATH})
   message("skipped: ament-cmake is not installed")
@@ -33,7 +33,7 @@ endforeach()
 file(GLOB launch_files ${share}/launch/*.py)
 run(${python} -m py_compile ${launch_files})
 
-run(${installed}/lib/canopeer_ros2/canopeer --version)
+run(${EMULATOR} ${installed}/lib/canopeer_ros2/canopeer --version)
 if(NOT printed MATCHES "canopeer")
   message(FATAL_ERROR "the installed program said: ${printed}")
 endif()

@@ -58,16 +58,11 @@ TEST_F(CycloneRobot, HearsAndIsHeardOnTopics) {
       }));
   ASSERT_TRUE(eventually([&] { return publisher.readers() == 1 && !echo->matched().empty(); }));
   const std::string long_text(1'000'000, 'x');
-  // It has discovered us when it answers.
+  // What is said before it has discovered us is lost on it.
   ASSERT_TRUE(eventually([&] {
-    publisher.publish({"hello"});
+    publisher.publish({long_text});
     const std::lock_guard lock(mutex);
-    return !heard.empty();
-  }));
-  ASSERT_TRUE(publisher.publish({long_text}));
-  ASSERT_TRUE(eventually([&] {
-    const std::lock_guard lock(mutex);
-    return heard.back() == long_text;
+    return !heard.empty() && heard.back() == long_text;
   }));
   ASSERT_TRUE(eventually([&] {
     const std::lock_guard lock(mutex);
@@ -87,7 +82,7 @@ TEST_F(CycloneRobot, AnswersTheFirstRequestAndAllAfterIt) {
   }
 }
 
-TEST_F(CycloneRobot, FollowsATrajectoryAndCancelsOne) {
+TEST_F(CycloneRobot, FollowsALongTrajectoryAndCancelsOne) {
   const auto client =
       must(ActionClient<Follow>::make(*node_, "/cyclone_arm/follow_joint_trajectory"));
   ASSERT_TRUE(eventually([&] { return client->ready(); }));
@@ -110,7 +105,6 @@ TEST_F(CycloneRobot, FollowsATrajectoryAndCancelsOne) {
     return ended.has_value();
   };
   Follow::Goal goal;
-  EXPECT_FALSE(must(client->send(goal, events, 10s))) << "no joints";
   goal.trajectory.joint_names = {"elbow"};
   goal.trajectory.points.resize(3000);  // many fragments
   for (auto& point : goal.trajectory.points) point.positions = {0.5};
@@ -126,6 +120,7 @@ TEST_F(CycloneRobot, FollowsATrajectoryAndCancelsOne) {
   EXPECT_TRUE(must(client->cancel(10s)));
   ASSERT_TRUE(eventually(has_ended));
   EXPECT_EQ(*ended, GoalState::canceled);
+  EXPECT_FALSE(must(client->send({}, events, 10s))) << "no joints";
 }
 
 TEST_F(CycloneRobot, ThatWasKilledAndStartedAgainAnswers) {

@@ -1,6 +1,9 @@
 // The whole check against the simulated robot in this process.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+
 #include "canopeer/ros2/ros2_check.h"
 #include "robot_in_process.h"
 
@@ -19,7 +22,7 @@ std::string said(const std::vector<Ros2Finding>& findings) {
   return text;
 }
 
-bool any_wrong(const std::vector<Ros2Finding>& findings) {
+[[nodiscard]] bool any_wrong(const std::vector<Ros2Finding>& findings) {
   for (const Ros2Finding& f : findings) {
     if (f.verdict == Ros2Finding::Verdict::wrong) return true;
   }
@@ -60,16 +63,26 @@ TEST(Ros2CheckOfARobot, WithoutOneItSaysWhatIsMissing) {
   }
 }
 
-TEST(Ros2CheckOfARobot, MovesALittleAndSaysThatMountingAndClockAreRight) {
-  const auto robot = start_smoke_robot();
+/// The number behind some words, where they are said last.
+double number_behind(const std::string& text, const std::string& words) {
+  const auto at = text.rfind(words);
+  return at == std::string::npos ? NAN : std::stod(text.substr(at + words.size()));
+}
+
+TEST(Ros2CheckOfARobot, MovesALittleAndSaysHowFarMountingAndClockAreOff) {
+  Ros2RobotOptions options;
+  options.faults = {"hand_eye:20,2", "time_offset:0.06"};
+  const auto robot = start_smoke_robot(options);
   ASSERT_TRUE(robot);
   MissionFile file = SmokeWorld::get().file;
   file.ros2->arm.first_motions = 0;
   file.ros2->camera.timeout_s = 30.0;
-  const auto findings = checked(file, true);
-  EXPECT_FALSE(any_wrong(findings)) << said(findings);
-  EXPECT_NE(said(findings).find("ok hand-eye"), std::string::npos) << said(findings);
-  EXPECT_NE(said(findings).find("ok time offset"), std::string::npos) << said(findings);
+  const std::string text = said(checked(file, true));
+  EXPECT_NE(text.find("wrong hand-eye"), std::string::npos) << text;
+  EXPECT_NEAR(number_behind(text, "the camera sits "), 20.0, 3.0) << text;
+  EXPECT_NEAR(number_behind(text.substr(text.find("the camera sits")), ") and "), 2.0, 0.3) << text;
+  EXPECT_NE(text.find("wrong time offset"), std::string::npos) << text;
+  EXPECT_NEAR(number_behind(text, "set ros2.camera.time_offset_s to "), -0.06, 0.006) << text;
   EXPECT_EQ(robot->report().collisions, 0);
 }
 

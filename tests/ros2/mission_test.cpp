@@ -75,7 +75,7 @@ bool has_moved(const std::filesystem::path& out) {
 
 TEST(MissionOverRos2, FindsFruitsAndTouchesNothing) {
   const TemporaryDirectory directory;
-  ChildProgram mission(mission_words(own_domain(), directory / "run"));
+  ChildProgram mission(mission_words(own_domain(), directory / "run", {"--time-per-segment", "8"}));
   ChildProgram robot(robot_words(own_domain()));
   EXPECT_EQ(mission.wait(), 0) << mission.err();
   EXPECT_GE(summary_figure(directory / "run", "fruits_reported"), 3);
@@ -100,12 +100,10 @@ TEST(MissionOverRos2, EndsWithItsResultsWhenTheRobotIsKilled) {
   EXPECT_GE(summary_figure(directory / "run", "views"), 1);
   EXPECT_TRUE(std::filesystem::exists(directory / "run/report.html"));
 
-  // A robot that is started anew takes the next mission, and so on.
+  // A robot that is started anew takes the next mission.
   ChildProgram again(robot_words(own_domain()));
-  for (const char* name : {"second", "third"}) {
-    ChildProgram next(mission_words(own_domain(), directory / name, {"--time-per-segment", "2"}));
-    EXPECT_EQ(next.wait(), 0) << next.err();
-  }
+  ChildProgram next(mission_words(own_domain(), directory / "next", {"--time-per-segment", "1"}));
+  EXPECT_EQ(next.wait(), 0) << next.err();
   again.send(SIGINT);
   again.wait();
   EXPECT_GE(report_figure(again.out(), "goals +(\\d+)"), 1) << again.out();
@@ -114,13 +112,30 @@ TEST(MissionOverRos2, EndsWithItsResultsWhenTheRobotIsKilled) {
 TEST(MissionOverRos2, GoesOnAfterMotionsThatDidNotArrive) {
   const TemporaryDirectory directory;
   ChildProgram robot(robot_words(own_domain(), {"--fault", "abort:0.5@2", "--fault", "reject@4"}));
-  ChildProgram mission(
-      mission_words(own_domain(), directory / "run", {"--time-per-segment", "10"}));
+  ChildProgram mission(mission_words(own_domain(), directory / "run", {"--time-per-segment", "7"}));
   EXPECT_EQ(mission.wait(), 0) << mission.err();
   robot.send(SIGINT);
   robot.wait();
   EXPECT_EQ(report_figure(robot.out(), "(\\d+) refused"), 1) << robot.out();
   EXPECT_EQ(report_figure(robot.out(), "(\\d+) cut short"), 1) << robot.out();
+  EXPECT_EQ(report_figure(robot.out(), "(\\d+) with collisions"), 0) << robot.out();
+}
+
+TEST(MissionOverRos2, DrivesTheTrolleyFromStopToStop) {
+  const TemporaryDirectory directory;
+  const std::vector<std::string> trolley = {
+      "--set", "stops_travel_m=[1, 1.3]",
+      "--set", "ros2.trolley.kind=trajectory",
+      "--set", "ros2.trolley.action=/trolley_controller/follow_joint_trajectory"};
+  ChildProgram robot(robot_words(own_domain(), trolley));
+  ChildProgram mission(
+      mission_words(own_domain(), directory / "run", with(trolley, {"--time-per-segment", "1"})));
+  EXPECT_EQ(mission.wait(), 0) << mission.err();
+  robot.send(SIGINT);
+  robot.wait();
+  const std::string record = read_file(directory / "run/record").value_or("");
+  EXPECT_NE(record.find("\"kind\":\"trolley\""), std::string::npos);
+  EXPECT_NE(record.find("stop 2"), std::string::npos);
   EXPECT_EQ(report_figure(robot.out(), "(\\d+) with collisions"), 0) << robot.out();
 }
 

@@ -1,5 +1,6 @@
 #include "canopeer/dds/participant.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <map>
@@ -53,6 +54,7 @@ constexpr auto kOk = eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
 #endif
 
 constexpr std::uint32_t kSocketBuffer = 4u << 20;
+constexpr VendorId kCycloneVendor{0x01, 0x10};
 // Where discovery is heard (DDSI-RTPS 2.3, 9.6.1).
 constexpr int kMulticastPort = 7400;
 constexpr int kPortsOfDomain = 250;
@@ -221,6 +223,13 @@ class Matched {
     const std::lock_guard lock(mutex_);
     return {guids_.begin(), guids_.end()};
   }
+  /// An id begins with its maker's.
+  [[nodiscard]] bool any_of(const VendorId& vendor) const {
+    const std::lock_guard lock(mutex_);
+    return std::any_of(guids_.begin(), guids_.end(), [&](const Guid& guid) {
+      return guid[0] == vendor[0] && guid[1] == vendor[1];
+    });
+  }
 
  private:
   mutable std::mutex mutex_;
@@ -265,6 +274,7 @@ class FastWriter final : public Writer, fast::DataWriterListener {
     Octets octets{payload, {}};
     rtps::WriteParams parameters;
     if (related) parameters.related_sample_identity(from_identity(*related));
+    if (heartbeat_first_ && matched_.any_of(kCycloneVendor)) writer_->assert_liveliness();
 #if CANOPEER_FAST_DDS >= 3
     const bool written = writer_->write(&octets, parameters) == kOk;
 #else
@@ -284,6 +294,7 @@ class FastWriter final : public Writer, fast::DataWriterListener {
 
   fast::Publisher& publisher_;
   std::function<void()> on_match_;
+  bool heartbeat_first_ = false;
   Matched matched_;
   std::mutex gate_;  ///< held while `on_match_` runs
   bool closed_ = false;

@@ -23,10 +23,13 @@ struct Qos {
   bool reliable = true;
   bool transient_local = false;  ///< who comes late gets the last ones
   int depth = 10;
+  /// A heartbeat goes before each sample. A reader of Cyclone DDS that begins to receive a sample
+  /// of several fragments drops it when the first heartbeat comes in the middle.
+  bool heartbeat_first = false;
 };
 inline constexpr Qos kDefaultQos{};
 inline constexpr Qos kSensorQos{false, false, 5};
-inline constexpr Qos kServiceQos{};
+inline constexpr Qos kServiceQos{true, false, 10, true};
 inline constexpr Qos kLatchedQos{true, true, 1};
 inline constexpr Qos kTfQos{true, false, 100};
 

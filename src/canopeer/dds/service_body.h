@@ -54,7 +54,8 @@ Expected<typename S::Response> Client<S>::call(const typename S::Request& reques
   });
   if (!asked) return tl::unexpected(asked.error());
   auto given = answer->wait(patience, [this] { return ready(); });
-  if (given) return given->has_value() ? std::move(*given) : fail_in("service " + service_, given->error());
+  if (given)
+    return given->has_value() ? std::move(*given) : fail_in("service " + service_, given->error());
   forget(*asked);
   if (!ready()) return fail("service " + service_ + ": the server went away");
   return fail("service " + service_ + ": no answer within " + std::to_string(patience.count()) +

@@ -17,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kReaderPatience{5};
 constexpr std::size_t kMostWaiting = 1000;
 /// Replies of one server to all its clients: one must not push another out before it is taken.
-constexpr Qos kReplyQos{true, false, 1000};
+constexpr Qos kReplyQos{true, false, 1000, true};
 
 /// Where a reply goes and how it is said.
 struct Asker {
@@ -92,6 +92,8 @@ class ReplySide {
     if (waiting_.size() > kMostWaiting) waiting_.pop_front();
   }
   void send_kept(Writer& writer) {
+    // One after the other: who is discovered meanwhile is looked at by the next.
+    const std::lock_guard flushing(flushing_);
     std::deque<Kept> kept;
     {
       const std::lock_guard lock(mutex_);
@@ -130,6 +132,7 @@ class ReplySide {
   }
 
   Node& node_;
+  std::mutex flushing_;
   std::mutex mutex_;  ///< of what follows; never held while writing
   std::condition_variable idle_;
   int sending_ = 0;

@@ -11,12 +11,10 @@
 namespace canopeer::ros {
 namespace {
 
-using Steady = std::chrono::steady_clock;
-
-constexpr double kStill = 0.002;                        // rad (m): noise of joint states is less
-constexpr double kStill_s = 0.1;                        // so long
+constexpr double kArmStill = 0.002;                     // rad (m): noise of joint states is less
+constexpr double kArmStill_s = 0.1;                     // so long
 constexpr std::chrono::milliseconds kStandstill(2000);  // then it counts as one all the same
-constexpr std::chrono::milliseconds kStep(10);
+constexpr std::chrono::milliseconds kStandstillStep(10);
 
 double turned_by(double from, double to, bool endless) {
   const double delta = to - from;
@@ -201,7 +199,7 @@ Expected<MotionOutcome> Ros2Arm::finish_sent() {
   MotionReport report;
   report.goal = std::move(*ending);
   report.goal_tolerance = settings_.goal_tolerance_rad;
-  const auto still = parts_.joints.still_since(kStill);
+  const auto still = parts_.joints.still_since(kArmStill);
   const auto newest = parts_.joints.newest();
   if (still && newest && sent) report.stood_still_s = seconds(*newest - std::max(*still, *sent));
   wait_for_standstill();
@@ -215,14 +213,14 @@ Expected<MotionOutcome> Ros2Arm::finish_sent() {
 
 /// Positions are those of after the end, and the arm does not swing any more.
 void Ros2Arm::wait_for_standstill() const {
-  const auto deadline = Steady::now() + kStandstill;
+  const auto deadline = JointHistory::Steady::now() + kStandstill;
   const auto heard_at_end = parts_.joints.newest();
-  while (Steady::now() < deadline) {
-    const auto still = parts_.joints.still_since(kStill);
+  while (JointHistory::Steady::now() < deadline) {
+    const auto still = parts_.joints.still_since(kArmStill);
     const auto newest = parts_.joints.newest();
     if (!still || !newest || !fresh()) return;
-    if (newest > heard_at_end && *newest - *still >= nanoseconds(kStill_s)) return;
-    std::this_thread::sleep_for(kStep);
+    if (newest > heard_at_end && *newest - *still >= nanoseconds(kArmStill_s)) return;
+    std::this_thread::sleep_for(kStandstillStep);
   }
 }
 

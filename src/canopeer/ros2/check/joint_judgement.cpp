@@ -51,9 +51,9 @@ void judge_names(const RobotModel& robot, const Ros2ArmSettings& settings,
     return;
   }
   if (!unmapped.empty()) {
-    findings.notice(kJointNames, "all " + std::to_string(wanted.size()) +
-                                     " are said; so are others, which are passed over: " +
-                                     names_listed(unmapped));
+    findings.ok(kJointNames,
+                "all " + std::to_string(wanted.size()) +
+                    " are said; so are others, which are passed over: " + names_listed(unmapped));
     return;
   }
   findings.ok(kJointNames, "all " + std::to_string(wanted.size()) + " are said");

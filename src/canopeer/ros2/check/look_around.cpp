@@ -60,7 +60,7 @@ std::vector<Configuration> looks_around(const RobotModel& robot, const Collision
       {{-s, s, 0}, {t, t, -r}}, {{0, 0, -s}, {0, 0, r / 2}}, {{s, 0, 0}, {0, 0, 0}}};
   std::vector<Configuration> found;
   for (const Look& look : looks) {
-    constexpr int kHalvings = 2;
+    constexpr int kHalvings = 3;
     for (int i = 0; i <= kHalvings; ++i) {
       const double share = 1.0 / (1 << i);
       const Configuration to = reach_for(robot, q, {share * look.step_m, share * look.turn_rad});

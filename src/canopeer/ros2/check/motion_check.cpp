@@ -154,9 +154,9 @@ Pose mounting_of(const RobotModel& robot) {
   return Pose::Identity();
 }
 
-std::string pose_residuals(const HandEyeEstimate& estimate) {
+std::string pose_residuals(const HandEyeEstimate& estimate, std::size_t still) {
   std::string text;
-  for (std::size_t i = 0; i < estimate.frames.size(); ++i) {
+  for (std::size_t i = 0; i < std::min(still, estimate.frames.size()); ++i) {
     const auto& frame = estimate.frames[i];
     text += (i == 0 ? "" : " ") + (frame.points == 0 ? std::string("-")
                                                      : figure(1e3 * frame.before_m, 1) + ">" +
@@ -165,7 +165,8 @@ std::string pose_residuals(const HandEyeEstimate& estimate) {
   return text;
 }
 
-std::string numbers_text(const Vec3& v, int decimals) {
+std::string numbers_text(Vec3 v, int decimals) {
+  v += Vec3::Zero();  // no -0
   return "[" + figure(v.x(), decimals) + ", " + figure(v.y(), decimals) + ", " +
          figure(v.z(), decimals) + "]";
 }
@@ -201,7 +202,7 @@ void tell_hand_eye(const HandEyeEstimate& estimate, const AssumedCamera& assumed
   } else {
     findings.ok("hand-eye", "right within " + mounting);
   }
-  const std::string clock = figure(1e3 * estimate.time_offset_s, 1) + " ms (+- " +
+  const std::string clock = figure(1e3 * std::abs(estimate.time_offset_s), 1) + " ms (+- " +
                             figure(3e3 * estimate.time_offset_se_s, 1) + ")";
   if (!estimate.time_known) {
     findings.notice("time offset",
@@ -216,10 +217,11 @@ void tell_hand_eye(const HandEyeEstimate& estimate, const AssumedCamera& assumed
   } else {
     findings.ok("time offset", "right within " + clock);
   }
-  const std::string residual = "surfaces of " + std::to_string(estimate.frames.size()) +
-                               " frames disagree by " + figure(1e3 * all.before_m, 1) +
-                               " mm, with what was found by " + figure(1e3 * all.after_m, 1) +
-                               " mm; each, in mm: " + pose_residuals(estimate);
+  const std::string residual =
+      "surfaces of " + std::to_string(estimate.frames.size()) + " frames disagree by " +
+      figure(1e3 * all.before_m, 1) + " mm, with what was found by " +
+      figure(1e3 * all.after_m, 1) +
+      " mm; where the arm stood, in mm: " + pose_residuals(estimate, assumed.still);
   constexpr double kOdd_m = 0.006;
   if (all.after_m > kOdd_m) {
     findings.notice("residual", residual +
@@ -266,7 +268,7 @@ void check_by_moving(CheckBench& bench, int most_looks, Findings& findings) {
   const bool from_tf = bench.settings.camera.pose == "tf";
   tell_hand_eye(*estimate,
                 {from_tf ? Pose::Identity() : mounting_of(bench.robot),
-                 bench.settings.camera.time_offset_s, from_tf},
+                 bench.settings.camera.time_offset_s, from_tf, frames.still.size()},
                 findings);
 }
 

@@ -16,6 +16,7 @@ struct AssumedCamera {
   Pose T_frame_camera = Pose::Identity();  ///< its mounting: camera_mounting of robot files
   double time_offset_s = 0.0;              ///< of the settings
   bool pose_from_tf = false;               ///< poses did not come from joint states
+  std::size_t still = 0;  ///< so many frames, the first, are from where the arm stood
 };
 
 /// The findings of an estimate: what is wrong, the residual of each pose, what to change.

@@ -90,9 +90,11 @@ void judge_topic(const ListenedTopic& topic, const std::vector<Endpoint>& publis
   const std::string size = topic.octets == 0 ? "" : ", " + kib(topic.octets);
   std::string text = topic.topic + ": " + figure(static_cast<double>(topic.count) / listened_s, 1) +
                      " Hz" + encoding + size;
-  if (publishers.size() > 1) {
-    findings.notice(topic.what, text + "; " + std::to_string(publishers.size()) +
-                                    " publish it: are two drivers running?");
+  std::set<ParticipantId> programs;
+  for (const Endpoint& publisher : publishers) programs.insert(participant_of(publisher.guid));
+  if (programs.size() > 1) {
+    findings.notice(topic.what, text + "; " + std::to_string(programs.size()) +
+                                    " programs publish it: are two drivers running?");
     return;
   }
   findings.ok(topic.what, text);
@@ -115,7 +117,7 @@ void judge_buffers(const std::vector<ListenedTopic>& topics, const ReceiveBuffer
     return;
   }
   findings.notice(what, said + ", images are " + kib(largest) + ": " +
-                            (reliable ? "many have to be sent again" : "many get lost") +
+                            (reliable ? "many may have to be sent again" : "many may get lost") +
                             "; sudo sysctl -w net.core.rmem_default=" + std::to_string(wanted) +
                             " net.core.rmem_max=" + std::to_string(wanted) +
                             (reliable ? "" : ", or set ros2.camera.reliable to true"));

@@ -7,24 +7,24 @@
 namespace canopeer::ros {
 namespace {
 
-using Json = nlohmann::json;
+using SettingJson = nlohmann::json;
 using rcl_interfaces::ParameterType;
 
-ParameterValue value_of_list(const Json& list) {
+ParameterValue value_of_list(const SettingJson& list) {
   const auto all = [&](auto is_one) {
     return !list.empty() && std::all_of(list.begin(), list.end(), is_one);
   };
   ParameterValue value;
-  if (all([](const Json& j) { return j.is_boolean(); })) {
+  if (all([](const SettingJson& j) { return j.is_boolean(); })) {
     value.type = ParameterType::PARAMETER_BOOL_ARRAY;
     value.bool_array_value = list.get<std::vector<bool>>();
-  } else if (all([](const Json& j) { return j.is_number_integer(); })) {
+  } else if (all([](const SettingJson& j) { return j.is_number_integer(); })) {
     value.type = ParameterType::PARAMETER_INTEGER_ARRAY;
     value.integer_array_value = list.get<std::vector<std::int64_t>>();
-  } else if (all([](const Json& j) { return j.is_number(); })) {
+  } else if (all([](const SettingJson& j) { return j.is_number(); })) {
     value.type = ParameterType::PARAMETER_DOUBLE_ARRAY;
     value.double_array_value = list.get<std::vector<double>>();
-  } else if (list.empty() || all([](const Json& j) { return j.is_string(); })) {
+  } else if (list.empty() || all([](const SettingJson& j) { return j.is_string(); })) {
     value.type = ParameterType::PARAMETER_STRING_ARRAY;
     value.string_array_value = list.get<std::vector<std::string>>();
   } else {
@@ -33,7 +33,7 @@ ParameterValue value_of_list(const Json& list) {
   return value;
 }
 
-ParameterValue value_of(const Json& json) {
+ParameterValue value_of(const SettingJson& json) {
   if (json.is_boolean()) return parameter_value(json.get<bool>());
   if (json.is_number_integer()) return parameter_value(json.get<std::int64_t>());
   if (json.is_number()) return parameter_value(json.get<double>());
@@ -51,7 +51,7 @@ std::string parameter_name(const std::string& key) {
 
 std::vector<ParameterAccess> mission_parameters(const std::string& settings_json,
                                                 std::vector<ParameterAccess> live) {
-  const Json settings = Json::parse(settings_json, nullptr, false);
+  const SettingJson settings = SettingJson::parse(settings_json, nullptr, false);
   if (!settings.is_object()) return live;
   const std::size_t live_ones = live.size();
   for (const auto& [key, json] : settings.items()) {
