@@ -30,7 +30,7 @@ test("blocks of the map come with their octets", () => {
   const block = new Uint8Array(128).fill(7);
   const map = readFrame(frame({ type: "map", view: 1, t_s: 2, blocks: 1 }, Int32Array.of(-1, 2, -3), block)) as MapChange;
   assert.deepEqual([...map.blocks.index], [-1, 2, -3]);
-  assert.deepEqual([...map.blocks.data[0]], [...block]);
+  assert.deepEqual(map.blocks.octets, block);
 });
 
 test("a plan's views, edges and gone edges are told apart", () => {
@@ -90,7 +90,7 @@ test("a link before its parent is refused", () => {
 test("a frame cut or changed anywhere is read or refused, and nothing else", () => {
   const next = random(11);
   const frames = makeRun({ segments: 1, views: 2, plants: 1 }).filter((f) => f.length < 20000);
-  for (let i = 0; i < 3000; ++i) {
+  for (let i = 0; i < 800; ++i) {
     const bytes = Uint8Array.from(frames[Math.floor(next() * frames.length)]);
     if (next() < 0.3) bytes.fill(Math.floor(256 * next()), Math.floor(next() * bytes.length));
     else for (let k = 0; k < 3; ++k) bytes[Math.floor(next() * Math.min(bytes.length, 300))] = Math.floor(256 * next());

@@ -2,7 +2,8 @@ import assert from "node:assert/strict";
 import test from "node:test";
 import type { Message } from "../src/data/messages.ts";
 import { readFrame } from "../src/data/protocol.ts";
-import { blockIndex, blockKey, edgeEnds, edgeKey, Timeline } from "../src/data/timeline.ts";
+import { blockIndex, blockKey } from "../src/data/block_history.ts";
+import { edgeEnds, edgeKey, Timeline } from "../src/data/timeline.ts";
 import { Trail } from "../src/data/trail.ts";
 import { cameraPose } from "../src/data/kinematics.ts";
 import { frame } from "./made/frames.ts";
@@ -114,7 +115,8 @@ test("blocks that become empty are gone", () => {
     read({ type: "map", view: 0, t_s: 0, blocks: 1 }, Int32Array.of(1, 2, 3), new Uint8Array(128).fill(fill));
   timeline.append(map(1));
   timeline.append(map(0));
-  assert.equal(timeline.map.at(blockKey(1, 2, 3), 0)?.[0], 1);
+  const version = timeline.map.at(blockKey(1, 2, 3), 0);
+  assert.deepEqual(timeline.map.octets(version ?? -1), new Uint8Array(128).fill(1));
   assert.equal(timeline.map.at(blockKey(1, 2, 3), 1), undefined);
 });
 

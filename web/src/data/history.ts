@@ -1,76 +1,73 @@
 import { upperBound } from "./search.ts";
 
-interface Versions<V> {
-  steps: number[];
-  values: (V | undefined)[];
-}
-
 /**
- * Values by key, at every step of a run: what was there after step n is found in logarithmic time,
- * so any moment can be shown at once. Steps are added in order.
+ * Values by key, at every step of a run: what was there after any step is found at once, so any
+ * moment can be shown. Steps are added in order. A version is a row of four lists; each knows the one
+ * of its key before it.
  */
 export class History<V> {
-  private readonly versions = new Map<number, Versions<V>>();
-  private readonly changeSteps: number[] = [];
-  private readonly changeKeys: number[] = [];
+  private readonly steps: number[] = [];
+  private readonly keys: number[] = [];
+  private readonly values: (V | undefined)[] = [];
+  private readonly before: number[] = []; // −1: none
+  private readonly newest = new Map<number, number>();
 
   /** From this step on; `undefined`: it is gone. */
   set(step: number, key: number, value: V | undefined): void {
-    let versions = this.versions.get(key);
-    if (!versions) this.versions.set(key, (versions = { steps: [], values: [] }));
-    const { steps, values } = versions;
-    if (steps.length > 0 && steps[steps.length - 1] === step) {
-      values[values.length - 1] = value;
+    const last = this.newest.get(key) ?? -1;
+    if (last >= 0 && this.steps[last] === step) {
+      this.values[last] = value;
       return;
     }
-    steps.push(step);
-    values.push(value);
-    this.changeSteps.push(step);
-    this.changeKeys.push(key);
+    this.newest.set(key, this.steps.push(step) - 1);
+    this.keys.push(key);
+    this.values.push(value);
+    this.before.push(last);
   }
 
   /** All that is there is gone from this step on. */
   clear(step: number): void {
-    for (const [key, { values }] of this.versions)
-      if (values[values.length - 1] !== undefined) this.set(step, key, undefined);
+    for (const [key, version] of this.newest)
+      if (this.values[version] !== undefined) this.set(step, key, undefined);
   }
 
   /** After this step. */
   at(key: number, step: number): V | undefined {
-    const versions = this.versions.get(key);
-    if (!versions) return undefined;
-    const i = upperBound(versions.steps, step);
-    return i === 0 ? undefined : versions.values[i - 1];
+    return this.values[this.versionAt(this.newest.get(key) ?? -1, step)];
   }
 
   /** The newest. */
   last(key: number): V | undefined {
-    return this.versions.get(key)?.values.at(-1);
+    return this.values[this.newest.get(key) ?? -1];
   }
 
   /** All that is there after this step. */
   *entriesAt(step: number): Generator<[number, V]> {
-    for (const [key, { steps, values }] of this.versions) {
-      const i = upperBound(steps, step);
-      const value = i === 0 ? undefined : values[i - 1];
+    for (const [key, newest] of this.newest) {
+      const value = this.values[this.versionAt(newest, step)];
       if (value !== undefined) yield [key, value];
     }
   }
 
   /** The step of the last change up to this one; −1: there was none. */
   lastChange(step: number): number {
-    const i = upperBound(this.changeSteps, step);
-    return i === 0 ? -1 : this.changeSteps[i - 1];
+    return this.steps[upperBound(this.steps, step) - 1] ?? -1;
   }
 
   /** Keys that may differ between two steps, whichever is later; some come more than once. */
   *changedBetween(a: number, b: number): Generator<number> {
-    const from = upperBound(this.changeSteps, Math.min(a, b));
-    const to = upperBound(this.changeSteps, Math.max(a, b));
-    if (to - from < this.versions.size) {
-      for (let i = from; i < to; ++i) yield this.changeKeys[i];
+    const from = upperBound(this.steps, Math.min(a, b));
+    const to = upperBound(this.steps, Math.max(a, b));
+    if (to - from < this.newest.size) {
+      for (let i = from; i < to; ++i) yield this.keys[i];
     } else {
-      yield* this.versions.keys();
+      yield* this.newest.keys();
     }
+  }
+
+  /** From a version back to the one that was there after a step; −1: none. */
+  private versionAt(version: number, step: number): number {
+    while (version >= 0 && this.steps[version] > step) version = this.before[version];
+    return version;
   }
 }

@@ -141,10 +141,11 @@ export interface Picture {
   data: Uint8Array;
 }
 
-/** Blocks of 8 × 8 × 8 voxels; `data[i]` belongs to the block at `index[3 i …]`. */
+/** Blocks of 8 × 8 × 8 voxels: the block at `index[3 i …]` has the `each` octets from `each` · i on. */
 export interface Blocks {
   index: Int32Array;
-  data: Uint8Array[];
+  octets: Uint8Array;
+  each: number;
 }
 
 export interface MapChange {

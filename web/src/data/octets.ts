@@ -30,15 +30,14 @@ export class Octets {
     return new Uint32Array(this.aligned(count));
   }
 
-  blocks(count: number, octetsEach: number): Blocks {
-    const blocks: Blocks = { index: new Int32Array(0), data: [] };
+  blocks(count: number, each: number): Blocks {
     const left = this.bytes.length - this.at;
-    if (count * (12 + octetsEach) > left)
+    if (count * (12 + each) > left)
       throw new FrameError(`${this.where}: ${left} octets are too few for ${count} blocks`);
-    blocks.index = new Int32Array(3 * count);
+    const blocks: Blocks = { index: new Int32Array(3 * count), octets: new Uint8Array(each * count), each };
     for (let i = 0; i < count; ++i) {
       blocks.index.set(this.int32(3), 3 * i);
-      blocks.data.push(this.take(octetsEach));
+      blocks.octets.set(this.take(each), each * i);
     }
     return blocks;
   }

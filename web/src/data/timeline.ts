@@ -1,8 +1,8 @@
+import { BlockHistory } from "./block_history.ts";
 import { History } from "./history.ts";
 import { Tracks } from "./tracks.ts";
 import { upperBound } from "./search.ts";
 import type {
-  Blocks,
   End,
   Fruit,
   GraphNode,
@@ -37,18 +37,6 @@ interface Stepped<T> {
   value: T;
 }
 
-/** Block indices as one number: 17 bits a coordinate. */
-export function blockKey(x: number, y: number, z: number): number {
-  return ((x + 65536) * 131072 + (y + 65536)) * 131072 + (z + 65536);
-}
-
-export function blockIndex(key: number): [number, number, number] {
-  const z = key % 131072;
-  const rest = (key - z) / 131072;
-  const y = rest % 131072;
-  return [(rest - y) / 131072 - 65536, y - 65536, z - 65536];
-}
-
 const kIds = 2 ** 26;
 
 /** An edge as one number, the same both ways. */
@@ -77,8 +65,8 @@ export class Timeline {
   readonly events: Event[] = [];
   readonly eventTimes: number[] = [];
   readonly tracks = new Tracks();
-  readonly map = new History<Uint8Array>();
-  readonly targets = new History<Uint8Array>();
+  readonly map = new BlockHistory();
+  readonly targets = new BlockHistory();
   readonly fruits = new History<Fruit>();
   /** Fruits that each view found or changed. */
   readonly fruitsOfView = new Map<number, Fruit[]>();
@@ -174,10 +162,10 @@ export class Timeline {
         this.addPicture(message);
         break;
       case "map":
-        setBlocks(this.map, step, message.blocks);
+        this.map.add(step, message.blocks);
         break;
       case "targets":
-        setBlocks(this.targets, step, message.blocks);
+        this.targets.add(step, message.blocks);
         break;
       case "plan":
         this.addPlan(step, message);
@@ -244,13 +232,6 @@ function level(log: Log): Event["level"] {
 
 function lastUpTo<T>(list: Stepped<T>[], step: number): T | null {
   return list.findLast((entry) => entry.step <= step)?.value ?? null;
-}
-
-function setBlocks(history: History<Uint8Array>, step: number, { index, data }: Blocks): void {
-  data.forEach((block, i) => {
-    const key = blockKey(index[3 * i], index[3 * i + 1], index[3 * i + 2]);
-    history.set(step, key, block.some((octet) => octet !== 0) ? block : undefined);
-  });
 }
 
 function forPairs(pairs: Int32Array, apply: (a: number, b: number) => void): void {

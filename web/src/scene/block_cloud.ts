@@ -1,6 +1,5 @@
 import * as THREE from "three";
-import { blockIndex, blockKey } from "../data/timeline.ts";
-import type { History } from "../data/history.ts";
+import { type BlockHistory, blockIndex, blockKey } from "../data/block_history.ts";
 import { type ChunkVoxels, chunkVoxels, coarser, kChunk, kChunkBlocks } from "./block_bits.ts";
 
 /** What a cloud of voxels looks like. */
@@ -39,7 +38,7 @@ export class BlockCloud {
   readonly group = new THREE.Group();
   /** Voxels drawn as cubes at most; the others are points. */
   cubeLimit = 150000;
-  private readonly blocks = new Map<number, Uint8Array>();
+  private readonly blocks = new Map<number, { version: number; octets: Uint8Array }>();
   private readonly chunks = new Map<number, Chunk>();
   private readonly dirty = new Set<number>();
   private shown = -1;
@@ -67,13 +66,13 @@ export class BlockCloud {
   }
 
   /** Shows the history after this step. */
-  show(history: History<Uint8Array>, step: number): void {
+  show(history: BlockHistory, step: number): void {
     if (step === this.shown) return;
     for (const key of history.changedBetween(this.shown, step)) {
-      const block = history.at(key, step);
-      if (block === this.blocks.get(key)) continue;
-      if (block) this.blocks.set(key, block);
-      else this.blocks.delete(key);
+      const version = history.at(key, step);
+      if (version === this.blocks.get(key)?.version) continue;
+      if (version === undefined) this.blocks.delete(key);
+      else this.blocks.set(key, { version, octets: history.octets(version) });
       this.touch(key);
     }
     this.shown = step;
@@ -107,7 +106,7 @@ export class BlockCloud {
     const [cx, cy, cz] = blockIndex(key);
     const [ox, oy, oz] = [cx * kChunkBlocks, cy * kChunkBlocks, cz * kChunkBlocks];
     const lookup = (x: number, y: number, z: number) =>
-      this.blocks.get(blockKey(ox + x, oy + y, oz + z));
+      this.blocks.get(blockKey(ox + x, oy + y, oz + z))?.octets;
     const voxels = chunkVoxels(lookup, this.look.sets, this.look.hideInner);
     if (voxels.count === 0) return;
     const edge = kChunk * this.resolution;

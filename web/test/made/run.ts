@@ -2,7 +2,7 @@ import type { Configuration } from "../../src/data/kinematics.ts";
 import { cameraPose, transformBack } from "../../src/data/kinematics.ts";
 import type { Robot, Vec3 } from "../../src/data/messages.ts";
 import { readFrame } from "../../src/data/protocol.ts";
-import { blockIndex, blockKey } from "../../src/data/timeline.ts";
+import { blockIndex, blockKey } from "../../src/data/block_history.ts";
 import { inside, pictureFrames } from "./pictures.ts";
 import { frame, random } from "./frames.ts";
 import { makePlants, type MadeFruit, type MadePlants } from "./plants.ts";
