@@ -4,8 +4,8 @@ include(CMakePackageConfigHelpers)
 
 # The program
 install(TARGETS canopeer RUNTIME COMPONENT program)
-install(DIRECTORY robots missions worlds compute_tables DESTINATION ${CMAKE_INSTALL_DATADIR}/canopeer COMPONENT program
-        PATTERN this-machine.yaml EXCLUDE)
+install(DIRECTORY robots missions worlds compute_tables ros2 DESTINATION ${CMAKE_INSTALL_DATADIR}/canopeer COMPONENT program
+        PATTERN this-machine.yaml EXCLUDE PATTERN __pycache__ EXCLUDE)
 set(completion apps/canopeer/completion)
 install(FILES ${completion}/canopeer.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
         RENAME canopeer COMPONENT program)

@@ -347,6 +347,7 @@ int parse_and_run(int argc, char** argv, const RunRegistries& registries) {
   ros2_arguments.robot.node = ros_arguments.node.value_or(ros2_arguments.robot.node);
   ros2_arguments.robot.mission.ros2 = ros2_settings(ros_arguments, ros2_arguments.robot.node);
   run_arguments.mission.ros2 = ros2_settings(ros_arguments, Ros2Settings().node);
+  ros2_arguments.check.mission.ros2 = run_arguments.mission.ros2;
   add_ros2(app, ros2_arguments, registries);
   std::vector<std::string> words(ros_arguments.rest.rbegin(), ros_arguments.rest.rend() - 1);
 #else

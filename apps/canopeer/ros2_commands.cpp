@@ -49,6 +49,19 @@ void add_ros2_robot(CLI::App& ros2, Ros2RobotArguments& a) {
   robot->callback([&a] { ros2_robot(a); });
 }
 
+void add_ros2_check(CLI::App& ros2, Ros2CheckArguments& a) {
+  CLI::App* check = ros2.add_subcommand(
+      "check", "Say what of a mission's robot is there on ROS 2, what fits, and what to change");
+  add_mission(*check, a.mission);
+  check->add_option("--listen", a.listen_s, "Seconds to measure rates for")
+      ->check(CLI::Range(0.5, 600.0))
+      ->capture_default_str();
+  check->add_flag("--move", a.move,
+                  "Move the arm slowly, a hand's breadth about where it is, to check the camera's "
+                  "mounting and clock in front of a still scene");
+  check->callback([&a] { ros2_check(a); });
+}
+
 }  // namespace
 
 void add_ros2(CLI::App& app, Ros2Arguments& arguments, const RunRegistries& registries) {
@@ -56,6 +69,8 @@ void add_ros2(CLI::App& app, Ros2Arguments& arguments, const RunRegistries& regi
   CLI::App* ros2 = app.add_subcommand("ros2", "Robots on ROS 2");
   ros2->require_subcommand(1);
   add_ros2_robot(*ros2, arguments.robot);
+  arguments.check.mission.registries = &registries;
+  add_ros2_check(*ros2, arguments.check);
 }
 
 }  // namespace canopeer::app

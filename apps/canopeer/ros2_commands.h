@@ -24,14 +24,22 @@ struct Ros2RobotArguments {
   double sim_rate = 1.0;
 };
 
+struct Ros2CheckArguments {
+  MissionArguments mission;
+  double listen_s = 3.0;
+  bool move = false;
+};
+
 /// What the commands below `ros2` are told.
 struct Ros2Arguments {
   Ros2RobotArguments robot;
+  Ros2CheckArguments check;
 };
 
 /// The group of commands `ros2`.
 void add_ros2(CLI::App& app, Ros2Arguments& arguments, const RunRegistries& registries);
 
 void ros2_robot(const Ros2RobotArguments& arguments);
+void ros2_check(const Ros2CheckArguments& arguments);
 
 }  // namespace canopeer::app

@@ -34,6 +34,7 @@ void print_report(const Ros2RobotReport& r) {
   std::printf("motions           %d: %d with collisions, %d that touched leaves\n", r.motions,
               r.collisions, r.plant_contacts);
   std::printf("frames            %d\n", r.frames);
+  std::printf("joint states      at most %.0f ms apart\n", 1e3 * r.longest_gap_s);
 }
 
 }  // namespace

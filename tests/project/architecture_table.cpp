@@ -16,7 +16,9 @@ std::vector<std::string> matches(const std::string& text, const char* pattern) {
           std::sregex_token_iterator()};
 }
 
-std::vector<std::string> words_of(const std::string& text) { return matches(text, "[a-z_]+"); }
+std::vector<std::string> words_of(const std::string& text) {
+  return matches(text, "[a-z][a-z0-9_]*");
+}
 
 /// The cells of the table under a heading of ARCHITECTURE.md, without its head.
 std::vector<std::vector<std::string>> rows_under(const std::string& heading) {
@@ -59,6 +61,15 @@ Allowed room_table() {
   return allowed;
 }
 
+std::set<std::string> open_rooms() {
+  std::set<std::string> rooms;
+  for (const auto& row : rows_under("Rooms")) {
+    if (row.at(1).find("(open)") == std::string::npos) continue;
+    rooms.insert(words_of(row.at(0)).at(0) + "/" + words_of(row.at(1)).at(0));
+  }
+  return rooms;
+}
+
 Allowed closure(const Allowed& allowed) {
   Allowed closed;
   for (const auto& [name, direct] : allowed) reach(allowed, name, closed[name]);
@@ -79,7 +90,7 @@ std::set<std::string> names_of(const Allowed& allowed) {
 }
 
 Place place_of(const std::string& header) {
-  static const std::regex address("^canopeer/([a-z]+)(/.+)?/[^/]+$");
+  static const std::regex address("^canopeer/([a-z][a-z0-9]*)(/.+)?/[^/]+$");
   std::smatch match;
   if (!std::regex_match(header, match, address)) return {};
   const std::string module = match[1].str();

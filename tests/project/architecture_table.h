@@ -15,6 +15,9 @@ using Allowed = std::map<std::string, std::set<std::string>>;
 /// The table under "Rooms": "map/fusion" → {"map/storage"}.
 [[nodiscard]] Allowed room_table();
 
+/// The rooms marked "(open)" there: those that everybody may include.
+[[nodiscard]] std::set<std::string> open_rooms();
+
 /// The table with "may include" followed through.
 [[nodiscard]] Allowed closure(const Allowed& allowed);
 

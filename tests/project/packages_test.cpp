@@ -50,6 +50,7 @@ constexpr HeaderOrigin kOrigins[] = {
     {"png.h", "libpng-dev"},
     {"zstd.h", "libzstd-dev"},
     {"zlib.h", "zlib1g-dev"},
+    {"jerror.h", "libjpeg-dev"},
     {"jpeglib.h", "libjpeg-dev"},
     {"assimp/", "libassimp-dev"},
     {"sdf/", "libsdformat-dev"},

@@ -4,6 +4,7 @@
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <numbers>
 
+#include "canopeer/robot/path_timing.h"
 #include "robot_fixture.h"
 
 namespace canopeer {
@@ -64,6 +65,23 @@ TEST(RobotModel, LooksAtTheRowFromItsHomeStates) {
   EXPECT_LT((side_2.translation() - Vec3(0.578, 0.014, 0.086)).norm(), 1e-3);
   EXPECT_TRUE(side_2.linear().col(2).isApprox(-Vec3::UnitY(), 1e-9));
   EXPECT_TRUE(side_2.linear().col(1).isApprox(-Vec3::UnitZ(), 1e-9));
+}
+
+TEST(RobotModel, SlowedDownTakesLongerForTheSameMotions) {
+  RobotModel slow = shipped_robot();
+  slow.slow_down(0.25);
+  const Configuration home = slow.home("side_1");
+  Configuration corner = home;
+  corner[0] += 0.5;
+  Configuration end = corner;
+  end[1] -= 0.4;
+  const JointPath path{{home, corner, end}, {0.0, 0.05, 0.0}};
+  const PathMotion quickly(path, shipped_robot().limits());
+  const PathMotion slowly(path, slow.limits());
+  EXPECT_NEAR(slowly.duration_s(), 4.0 * quickly.duration_s(), 1e-9);
+  for (double t_s = 0.0; t_s < quickly.duration_s(); t_s += 0.1) {
+    EXPECT_LT((slowly.at(4.0 * t_s) - quickly.at(t_s)).norm(), 1e-9);
+  }
 }
 
 TEST(RobotModel, StandsOnItsTrolleyAtEveryStop) {

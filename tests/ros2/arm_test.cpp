@@ -44,7 +44,10 @@ class Ros2ArmTest : public ::testing::Test {
       };
     }
     arm_ = must(Ros2Arm::make({*node_, test_robot(), *joints_, clock_, person}, settings));
-    ASSERT_TRUE(eventually([&] { return arm_->ready() && joints_->last().has_value(); }));
+    ASSERT_TRUE(eventually([&] {
+      return arm_->ready() && joints_->last().has_value() &&
+             !robot_node_->subscribers_of(std::string(kAction) + "/_action/feedback").empty();
+    }));
   }
 
   static std::vector<double> numbers(const Configuration& q) {
@@ -254,6 +257,14 @@ TEST_F(Ros2ArmTest, APersonWhoStopsTheRunCancelsTheMotionButNotTheWayHome) {
   EXPECT_EQ(must(arm_->finish()).end, MotionEnd::cancelled);
   controller_->faults([](ControllerFaults& f) { f.speed = 1.0; });
   EXPECT_EQ(move({{arm_->configuration(), home_}}).end, MotionEnd::arrived);
+}
+
+TEST_F(Ros2ArmTest, AMotionUnderWayEndsWithItsArm) {
+  start();
+  controller_->faults([](ControllerFaults& f) { f.speed = 0.05; });
+  ASSERT_TRUE(arm_->start(a_motion()));
+  arm_.reset();
+  EXPECT_TRUE(eventually([&] { return controller_->cancels() == 1; }));
 }
 
 TEST_F(Ros2ArmTest, SilentJointStatesWhileMovingAreALostArm) {

@@ -44,26 +44,27 @@ class Ros2OutputTest : public ::testing::Test {
 
 TEST_F(Ros2OutputTest, HasEverySettingAsAParameter) {
   const auto told = output();
-  EXPECT_EQ(get("planner").string_value, "vmp");
-  EXPECT_EQ(get("seed").integer_value, 3);
-  EXPECT_EQ(get("stops_travel_m").double_array_value, (std::vector<double>{1.0, 2.5}));
-  EXPECT_EQ(get("odd").string_value, "[1,\"a\"]");
-  EXPECT_TRUE(get("dry").bool_value);
+  EXPECT_EQ(get("mission.planner").string_value, "vmp");
+  EXPECT_EQ(get("mission.seed").integer_value, 3);
+  EXPECT_DOUBLE_EQ(get("arm.speed_scale").double_value, 0.5);
+  EXPECT_EQ(get("mission.stops_travel_m").double_array_value, (std::vector<double>{1.0, 2.5}));
+  EXPECT_EQ(get("mission.odd").string_value, "[1,\"a\"]");
+  EXPECT_TRUE(get("mission.dry").bool_value);
   EXPECT_EQ(get("use_sim_time").type, ParameterType::PARAMETER_BOOL);
   EXPECT_EQ(get("nothing").type, ParameterType::PARAMETER_NOT_SET);
 }
 
 TEST_F(Ros2OutputTest, SetsWhatMakesSenseAndRefusesTheRest) {
   const auto told = output();
-  EXPECT_TRUE(set("ros2.output.map_rate_hz", parameter_value(5.0)).successful);
-  EXPECT_DOUBLE_EQ(get("ros2.output.map_rate_hz").double_value, 5.0);
-  EXPECT_FALSE(set("ros2.output.map_rate_hz", parameter_value(500.0)).successful);
+  EXPECT_TRUE(set("output.map_rate_hz", parameter_value(5.0)).successful);
+  EXPECT_DOUBLE_EQ(get("output.map_rate_hz").double_value, 5.0);
+  EXPECT_FALSE(set("output.map_rate_hz", parameter_value(500.0)).successful);
   EXPECT_TRUE(told->may_move("move", [] { return true; }));
-  EXPECT_TRUE(set("ros2.confirm", parameter_value(true)).successful);
+  EXPECT_TRUE(set("confirm", parameter_value(true)).successful);
   EXPECT_FALSE(told->may_move("move", [] { return true; }));
-  const auto refused = set("ros2.arm.speed_scale", parameter_value(1.0));
+  const auto refused = set("arm.speed_scale", parameter_value(1.0));
   EXPECT_FALSE(refused.successful);
-  EXPECT_NE(refused.reason.find("ros2.arm.speed_scale"), std::string::npos);
+  EXPECT_NE(refused.reason.find("arm.speed_scale"), std::string::npos);
 }
 
 TEST_F(Ros2OutputTest, StopsByService) {
@@ -75,9 +76,14 @@ TEST_F(Ros2OutputTest, StopsByService) {
   EXPECT_EQ(told->steering().ask({}).kind, SteeringWord::Kind::stop);
 }
 
-TEST_F(Ros2OutputTest, TellsNothingWhereNothingIsToBeTold) {
+TEST_F(Ros2OutputTest, SpeaksOnRosoutOnlyWhereNothingElseIsToBeTold) {
   settings_.output.enabled = false;
-  EXPECT_EQ(output()->watcher(), nullptr);
+  const auto told = output();
+  const Heard<rcl_interfaces::Log> log(*person_, "/rosout", Qos{true, true, 100});
+  told->watcher()->on_event(RunBegun{0.0, 1, 60.0, false, {}});
+  EXPECT_TRUE(log.comes());
+  EXPECT_TRUE(person_->publishers_of("/canopeer/progress").empty());
+  EXPECT_TRUE(person_->publishers_of("/tf").empty());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ball_scene.h"
+#include "canopeer/cdr/messages/diagnostic_msgs.h"
 #include "canopeer/cdr/messages/rcl_interfaces.h"
 #include "canopeer/fruit/fruits_csv.h"
 #include "canopeer/map/map_file.h"

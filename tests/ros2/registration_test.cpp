@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <numbers>
 
 #include "canopeer/map/fusion.h"
 #include "canopeer/render/renderer.h"
@@ -70,8 +71,8 @@ TEST_F(Registration, OfAFrameWithoutDepthSaysNothing) {
 /// A wall along the row looks the same wherever the trolley stands.
 TEST(TravelRegistration, OfAWallAlongTheRowIsUnclear) {
   RgbdFrame frame;
-  frame.T_world_camera =
-      Pose(Eigen::Translation3d(0.5, 2.0, 1.0) * Eigen::AngleAxisd(EIGEN_PI / 2.0, Vec3::UnitY()));
+  frame.T_world_camera = Pose(Eigen::Translation3d(0.5, 2.0, 1.0) *
+                              Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitY()));
   frame.depth = DepthImage(frame.intrinsics.width, frame.intrinsics.height, 1.0F);
   VoxelMap map;
   Mask no_mask;

@@ -4,9 +4,12 @@
 #include <limits>
 
 #include "canopeer/base/rng.h"
+#include "canopeer/cdr/messages/rosgraph_msgs.h"
 #include "canopeer/ros2/arm/joint_listener.h"
 #include "canopeer/ros2/time/joint_history.h"
 #include "canopeer/ros2/time/ros_clock.h"
+#include "ros_fixture.h"
+#include "support/must.h"
 
 namespace canopeer::ros {
 namespace {
@@ -28,7 +31,7 @@ sensor_msgs::JointState state(double t_s, std::vector<std::string> names,
 TEST(Stamps, GoThereAndBack) {
   Rng rng(1, "stamps");
   for (int i = 0; i < 1000; ++i) {
-    const auto stamp = static_cast<Stamp>(rng.uniform(-1e18, 4e18));
+    const auto stamp = static_cast<Stamp>(rng.uniform(-2e18, 2e18));
     EXPECT_EQ(stamp_of(ros_time(stamp)), stamp);
   }
   EXPECT_EQ(ros_time(-1).sec, -1);
@@ -166,6 +169,47 @@ TEST(RosClock, SaysWhenTheSystemsTimeIsSetBack) {
   ASSERT_FALSE(checked);
   EXPECT_NE(checked.error().message.find("set back by 9"), std::string::npos)
       << checked.error().message;
+}
+
+TEST(RosClock, OfASimulationFollowsItsClock) {
+  const auto simulator = testing_support::make_node("simulator");
+  const auto node = testing_support::make_node("canopeer");
+  const auto clock = must(RosClock::of_simulation(*node));
+  EXPECT_FALSE(clock->running());
+  EXPECT_FALSE(clock->check());
+  const auto out = must(simulator->advertise<rosgraph_msgs::Clock>("/clock"));
+  ASSERT_TRUE(testing_support::eventually([&] {
+    out.publish({ros_time(nanoseconds(50.0))});
+    return clock->running();
+  }));
+  EXPECT_EQ(clock->now_s(), 0.0);
+  EXPECT_EQ(clock->now(), nanoseconds(50.0));
+  EXPECT_TRUE(clock->check());
+  EXPECT_NEAR(clock->mission_time_s(nanoseconds(48.5)), -1.5, 1e-9);
+
+  std::jthread time([&](const std::stop_token& stop) {
+    for (int i = 1; !stop.stop_requested(); ++i) {
+      out.publish({ros_time(nanoseconds(50.0 + 0.1 * i))});
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  });
+  clock->sleep(3.0);  // of the simulation
+  EXPECT_GE(clock->now_s(), 3.0);
+}
+
+TEST(RosClock, OfASimulationThatIsResetEndsAll) {
+  const auto node = testing_support::make_node("canopeer");
+  const auto clock = must(RosClock::of_simulation(*node));
+  clock->take(nanoseconds(50.0));
+  clock->take(nanoseconds(49.99));  // overtaken
+  EXPECT_TRUE(clock->check());
+  EXPECT_EQ(clock->now(), nanoseconds(50.0));
+  clock->take(nanoseconds(7.0));
+  const auto checked = clock->check();
+  ASSERT_FALSE(checked);
+  EXPECT_NE(checked.error().message.find("/clock jumped back by 43.0 s"), std::string::npos);
+  EXPECT_EQ(clock->now(), nanoseconds(50.0));
+  clock->sleep(1e6);  // does not wait for what never comes
 }
 
 }  // namespace

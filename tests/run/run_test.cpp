@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "canopeer/base/atomic_file.h"
+#include "canopeer/mission/steering_desk.h"
 #include "canopeer/record/record_file.h"
 
 namespace canopeer {
@@ -72,6 +75,65 @@ TEST_F(RunTest, OnASiteThatKnowsNoTruthLeavesScoresOpenAndAReportAllTheSame) {
   EXPECT_FALSE(fs::exists(out_ / "ground_truth.csv"));
   EXPECT_TRUE(fs::exists(out_ / "report.html"));
   EXPECT_FALSE((*run)->state().has_value());  // such a site cannot be put back
+}
+
+/// A robot that stands for the simulated one: its own clock, a slow arm, somebody who watches and
+/// steers.
+class ManneredSite : public TightLipped {
+ public:
+  struct Seen : Watcher {
+    void on_event(const Event&) override { ++events; }
+    std::atomic<int> events{0};
+  };
+  ManneredSite(std::unique_ptr<Site> site, std::shared_ptr<Seen> seen, fs::path& results)
+      : TightLipped(std::move(site)), seen_(std::move(seen)), results_(results) {}
+  std::shared_ptr<Watcher> watcher() override { return seen_; }
+  Steering* steering() override { return &stop_; }
+  void results_in(const fs::path& out) override { results_ = out; }
+
+ private:
+  std::shared_ptr<Seen> seen_;
+  fs::path& results_;
+  SteeringPolicy stop_{"the site", [](const SteeringPoint& point) {
+                         return point.views > 0 ? SteeringWord::Kind::stop
+                                                : SteeringWord::Kind::go_on;
+                       }};
+};
+
+TEST_F(RunTest, OnASiteWithMannersTakesThemOn) {
+  const auto seen = std::make_shared<ManneredSite::Seen>();
+  fs::path results;
+  SiteManners manners;
+  manners.realtime = true;
+  manners.arm_speed = [](const MissionFile&) { return 0.5; };
+  ASSERT_TRUE(registries_.sites
+                  .add_with_manners(
+                      "robot", "stops after a view",
+                      [&](const SiteRequest& request) -> Expected<std::unique_ptr<Site>> {
+                        auto site = SiteRegistry::built_in().make("simulation", request);
+                        if (!site) return site;
+                        return std::make_unique<ManneredSite>(std::move(*site), seen, results);
+                      },
+                      std::move(manners))
+                  .has_value());
+  request_.site = "robot";
+  const auto run = Run::compose(request_, registries_, out_);
+  ASSERT_TRUE(run.has_value()) << run.error().message;
+  request_.site = "simulation";
+  const auto simulated = Stage::make(request_, registries_);
+  ASSERT_TRUE(simulated.has_value());
+  const JointLimits& slow = (*run)->stage().robot().model.limits();
+  const JointLimits& quick = (*simulated)->robot().model.limits();
+  EXPECT_EQ(slow.velocity, 0.5 * quick.velocity);
+  EXPECT_EQ(slow.acceleration, 0.25 * quick.acceleration);
+  EXPECT_EQ(slow.upper, quick.upper);
+  SteeringPolicy nobody("nobody", [](const SteeringPoint&) { return SteeringWord::Kind::go_on; });
+  (*run)->steer(nobody);
+  ASSERT_TRUE((*run)->execute().has_value());
+  EXPECT_TRUE((*run)->interrupted());
+  EXPECT_EQ((*run)->record().steering.back().by, "the site");
+  EXPECT_GT(seen->events, 2);
+  EXPECT_EQ(results, out_);
 }
 
 TEST_F(RunTest, NamesTheSitesThereAreWhenAskedForAnother) {

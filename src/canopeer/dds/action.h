@@ -93,6 +93,8 @@ class ActionServer {
     std::function<bool(const UUID&, const typename A::Goal&)> accept;  ///< false: rejected
     std::function<void(const UUID&, const typename A::Goal&)> start;   ///< begin; returns at once
     std::function<bool(const UUID&)> cancel;                           ///< false: refused
+    /// True: requests are not heard, as of a server that hangs. Empty: they are.
+    std::function<bool()> deaf{};
   };
   [[nodiscard]] static Expected<std::unique_ptr<ActionServer>> make(Node& node,
                                                                     const std::string& action,
@@ -105,6 +107,7 @@ class ActionServer {
   using Cancel = action_msgs::CancelGoal;
   explicit ActionServer(Handlers handlers) : handlers_(std::move(handlers)) {}
   [[nodiscard]] Expected<void> open(Node& node, const std::string& action);
+  [[nodiscard]] bool deaf() const { return handlers_.deaf && handlers_.deaf(); }
   void take_goal(typename SendGoal<A>::Request&& request,
                  const typename Server<SendGoal<A>>::Reply& reply);
   void take_cancel(const action_msgs::GoalInfo& request,

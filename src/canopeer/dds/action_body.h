@@ -147,6 +147,7 @@ Expected<void> ActionServer<A>::open(Node& node, const std::string& base) {
 template <class A>
 void ActionServer<A>::take_goal(typename SendGoal<A>::Request&& request,
                                 const typename Server<SendGoal<A>>::Reply& reply) {
+  if (deaf()) return;
   const auto stamp = system_stamp();
   if (!handlers_.accept(request.goal_id, request.goal) || !ledger_.begin(request.goal_id, stamp)) {
     return reply({false, stamp});
@@ -161,6 +162,7 @@ void ActionServer<A>::take_goal(typename SendGoal<A>::Request&& request,
 template <class A>
 void ActionServer<A>::take_cancel(const action_msgs::GoalInfo& request,
                                   const typename Server<Cancel>::Reply& reply) {
+  if (deaf()) return;
   Cancel::Response response;
   for (const action_msgs::GoalInfo& goal : ledger_.meant_by(request)) {
     if (!handlers_.cancel(goal.goal_id)) continue;

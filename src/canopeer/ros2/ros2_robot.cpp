@@ -134,8 +134,15 @@ Expected<void> Ros2Robot::set_fault(std::string_view fault) { return state_->fau
 Ros2RobotReport Ros2Robot::report() {
   const auto arm = state_->control->arm_counts();
   const auto judged = state_->watch.counts();
-  return {arm.goals,      arm.refused,       arm.arrived,           arm.cut_short,
-          judged.motions, judged.collisions, judged.plant_contacts, state_->camera->frames()};
+  return {arm.goals,
+          arm.refused,
+          arm.arrived,
+          arm.cut_short,
+          judged.motions,
+          judged.collisions,
+          judged.plant_contacts,
+          state_->camera->frames(),
+          state_->control->longest_gap_s()};
 }
 
 std::vector<std::string> ros2_robot_faults() {

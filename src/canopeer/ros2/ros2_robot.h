@@ -31,14 +31,15 @@ struct Ros2RobotOptions {
 
 /// What happened to a simulated robot.
 struct Ros2RobotReport {
-  int goals = 0;           ///< of the arm
-  int refused = 0;         ///< of these
-  int arrived = 0;         ///< of these
-  int cut_short = 0;       ///< aborted, cancelled, preempted
-  int motions = 0;         ///< of the arm, from standstill to standstill
-  int collisions = 0;      ///< motions with: the robot itself or the structure
-  int plant_contacts = 0;  ///< motions with
-  int frames = 0;          ///< sent
+  int goals = 0;               ///< of the arm
+  int refused = 0;             ///< of these
+  int arrived = 0;             ///< of these
+  int cut_short = 0;           ///< aborted, cancelled, preempted
+  int motions = 0;             ///< of the arm, from standstill to standstill
+  int collisions = 0;          ///< motions with: the robot itself or the structure
+  int plant_contacts = 0;      ///< motions with
+  int frames = 0;              ///< sent
+  double longest_gap_s = 0.0;  ///< between two joint states
 };
 
 /// The simulated glasshouse of a mission as a robot on ROS 2: arm and trolley behind controllers,

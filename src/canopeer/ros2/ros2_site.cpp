@@ -140,12 +140,15 @@ Expected<void> Ros2Site::open_ports() {
   trolley_ = std::move(*trolley);
 
   const CameraIntrinsics& asked = request_.file.simulation.camera;
-  auto camera =
-      Ros2Camera::make(*node_, settings_.camera,
-                       {request_.robot, joints_, [this](Stamp stamp) { return sense_.at(stamp); },
-                        [this] { return clock_->now(); },
-                        [this](Stamp stamp) { return clock_->mission_time_s(stamp); },
-                        asked.min_range_m, asked.max_range_m});
+  CameraSurroundings around{request_.robot,
+                            joints_,
+                            [this](Stamp stamp) { return sense_.at(stamp); },
+                            [this] { return clock_->now(); },
+                            [this](Stamp stamp) { return clock_->mission_time_s(stamp); },
+                            asked.min_range_m,
+                            asked.max_range_m};
+  around.alive = [this] { return arm_->fresh(); };
+  auto camera = Ros2Camera::make(*node_, settings_.camera, around);
   if (!camera) return fail_in("camera", camera.error());
   camera_ = std::move(*camera);
   placing_ = std::make_unique<PlacingCamera>(*camera_, *trolley_);
@@ -156,7 +159,9 @@ PersonHooks Ros2Site::person() {
   PersonHooks person;
   person.stop_asked = [this] { return stop_asked(); };
   person.may_move = [this](const std::string& motion) {
-    return output_->may_move(motion, [this] { return stop_asked(); });
+    // Who has stopped the run may still want the arm to go home.
+    return output_->may_move(motion,
+                             [this, before = stop_asked()] { return !before && stop_asked(); });
   };
   person.say = [this](const std::string& text) { tell(text); };
   return person;
@@ -238,7 +243,9 @@ void add_ros2_site(SiteRegistry& sites) {
   if (!sites.one_line("ros2").empty()) return;
   SiteManners manners;
   manners.realtime = true;
-  manners.arm_speed = [](const MissionFile& file) { return ros::settings_of(file).arm.speed_scale; };
+  manners.arm_speed = [](const MissionFile& file) {
+    return ros::settings_of(file).arm.speed_scale;
+  };
   const auto added = sites.add_with_manners("ros2", "a robot on ROS 2, as the mission's ros2 says",
                                             make_ros2_site, std::move(manners));
   CANOPEER_CHECK(added.has_value(), "its name is good and free");

@@ -10,7 +10,7 @@
 namespace canopeer::ros {
 namespace {
 
-using Result = FollowJointTrajectory::Result;
+using TrajectoryResult = FollowJointTrajectory::Result;
 
 constexpr double kHeldUp_s = 0.5;  // who merely lags behind does not stand still for so long
 /// Controllers look at one instant, we a little later.
@@ -47,8 +47,8 @@ MotionOutcome outcome(MotionEnd end, std::string why) {
 }
 
 MotionOutcome succeeded(const MotionReport& report) {
-  const Result& result = report.goal.result;
-  if (result.error_code != Result::SUCCESSFUL) {
+  const TrajectoryResult& result = report.goal.result;
+  if (result.error_code != TrajectoryResult::SUCCESSFUL) {
     return outcome(MotionEnd::aborted, in_words(result) + ", though said to have succeeded");
   }
   const double allowed = report.goal_tolerance > 0.0 ? kBelief * report.goal_tolerance : kFarOff;
@@ -60,22 +60,22 @@ MotionOutcome succeeded(const MotionReport& report) {
 
 }  // namespace
 
-std::string in_words(const Result& result) {
+std::string in_words(const TrajectoryResult& result) {
   const auto with_text = [&](const char* meaning) {
     return meaning + (result.error_string.empty() ? "" : ": " + result.error_string);
   };
   switch (result.error_code) {
-    case Result::SUCCESSFUL:
+    case TrajectoryResult::SUCCESSFUL:
       return with_text("no error is given");
-    case Result::INVALID_GOAL:
+    case TrajectoryResult::INVALID_GOAL:
       return with_text("the controller takes the trajectory for invalid");
-    case Result::INVALID_JOINTS:
+    case TrajectoryResult::INVALID_JOINTS:
       return with_text("the controller has other joints (ros2.arm.joint_names)");
-    case Result::OLD_HEADER_TIMESTAMP:
+    case TrajectoryResult::OLD_HEADER_TIMESTAMP:
       return with_text("the trajectory came too late, or clocks differ");
-    case Result::PATH_TOLERANCE_VIOLATED:
+    case TrajectoryResult::PATH_TOLERANCE_VIOLATED:
       return with_text("a joint left its path farther than allowed");
-    case Result::GOAL_TOLERANCE_VIOLATED:
+    case TrajectoryResult::GOAL_TOLERANCE_VIOLATED:
       return with_text("a joint did not reach its goal as closely as wanted, or in time");
     default:
       return with_text(("error " + std::to_string(result.error_code)).c_str());

@@ -11,12 +11,10 @@
 namespace canopeer::ros {
 namespace {
 
-using Steady = std::chrono::steady_clock;
-
-constexpr double kStill = 0.002;                        // rad (m): noise of joint states is less
-constexpr double kStill_s = 0.1;                        // so long
+constexpr double kArmStill = 0.002;                     // rad (m): noise of joint states is less
+constexpr double kArmStill_s = 0.1;                     // so long
 constexpr std::chrono::milliseconds kStandstill(2000);  // then it counts as one all the same
-constexpr std::chrono::milliseconds kStep(10);
+constexpr std::chrono::milliseconds kStandstillStep(10);
 
 double turned_by(double from, double to, bool endless) {
   const double delta = to - from;
@@ -73,7 +71,6 @@ Configuration Ros2Arm::configuration() const {
   return q;
 }
 
-/// The error: where the arm is is not known.
 Expected<void> Ros2Arm::fresh() const {
   if (auto ok = parts_.clock.check(); !ok) return ok;
   const auto silent = parts_.joints.silent(settings_.max_silence_s);
@@ -124,24 +121,27 @@ double Ros2Arm::hold_back(MotionEnd end, std::string why, double duration_s) {
   return duration_s;
 }
 
-Expected<double> Ros2Arm::start(const JointPath& path) {
-  held_back_.reset();
-  stop_was_asked_ = parts_.person.stop();
+/// False: it is held back. The error: where the arm is is not known.
+Expected<bool> Ros2Arm::may_begin(const JointPath& path) {
   if (auto ok = fresh(); !ok) return tl::unexpected(ok.error());
-  if (auto refused = refusal(path)) {
-    held_back_ = std::move(refused);
-    return duration_s_ = 0.0;
-  }
+  held_back_ = refusal(path);
+  duration_s_ = 0.0;
+  return !held_back_;
+}
+
+Expected<double> Ros2Arm::start(const JointPath& path) {
+  stop_was_asked_ = parts_.person.stop();
+  auto may = may_begin(path);
+  if (!may) return tl::unexpected(may.error());
+  if (!*may) return 0.0;
   const PathMotion motion(path, limits());
   if (dry_run_) return hold_back(MotionEnd::withheld, "a dry run", motion.duration_s());
   if (parts_.person.may_move) {
     const std::string what = "move the arm for " + figure(motion.duration_s(), 1) + " s";
     if (!parts_.person.may_move(what)) return hold_back(MotionEnd::withheld, "not confirmed");
-    if (auto ok = fresh(); !ok) return tl::unexpected(ok.error());
-    if (auto refused = refusal(path)) {  // a person may have taken minutes
-      held_back_ = std::move(refused);
-      return duration_s_ = 0.0;
-    }
+    may = may_begin(path);  // the answer may have taken minutes
+    if (!may) return tl::unexpected(may.error());
+    if (!*may) return 0.0;
   }
   goal_ = trajectory_goal(motion, names_, drivers_positions(), parts_.robot.endless(),
                           {settings_.rate_hz, settings_.path_tolerance_rad,
@@ -149,9 +149,8 @@ Expected<double> Ros2Arm::start(const JointPath& path) {
   const auto accepted = client_->send(goal_);
   if (!accepted) return fail_in("lost " + settings_.action, accepted.error());
   if (!*accepted) {
-    return hold_back(MotionEnd::refused, settings_.action +
-                                             " refuses the trajectory; its log "
-                                             "says why");
+    return hold_back(MotionEnd::refused,
+                     settings_.action + " refuses the trajectory; its log says why");
   }
   ++motions_;
   return duration_s_ = duration_s(goal_);
@@ -200,7 +199,7 @@ Expected<MotionOutcome> Ros2Arm::finish_sent() {
   MotionReport report;
   report.goal = std::move(*ending);
   report.goal_tolerance = settings_.goal_tolerance_rad;
-  const auto still = parts_.joints.still_since(kStill);
+  const auto still = parts_.joints.still_since(kArmStill);
   const auto newest = parts_.joints.newest();
   if (still && newest && sent) report.stood_still_s = seconds(*newest - std::max(*still, *sent));
   wait_for_standstill();
@@ -214,14 +213,14 @@ Expected<MotionOutcome> Ros2Arm::finish_sent() {
 
 /// Positions are those of after the end, and the arm does not swing any more.
 void Ros2Arm::wait_for_standstill() const {
-  const auto deadline = Steady::now() + kStandstill;
+  const auto deadline = JointHistory::Steady::now() + kStandstill;
   const auto heard_at_end = parts_.joints.newest();
-  while (Steady::now() < deadline) {
-    const auto still = parts_.joints.still_since(kStill);
+  while (JointHistory::Steady::now() < deadline) {
+    const auto still = parts_.joints.still_since(kArmStill);
     const auto newest = parts_.joints.newest();
     if (!still || !newest || !fresh()) return;
-    if (newest > heard_at_end && *newest - *still >= nanoseconds(kStill_s)) return;
-    std::this_thread::sleep_for(kStep);
+    if (newest > heard_at_end && *newest - *still >= nanoseconds(kArmStill_s)) return;
+    std::this_thread::sleep_for(kStandstillStep);
   }
 }
 

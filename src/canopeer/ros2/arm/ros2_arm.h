@@ -36,6 +36,9 @@ class Ros2Arm : public Arm {
   /// The controller is there.
   [[nodiscard]] bool ready() const { return client_->ready(); }
 
+  /// The error: where the arm is is not known any more, since joint states or the time stay out.
+  [[nodiscard]] Expected<void> fresh() const;
+
   /// As the last joint states say. Those that are beyond a limit by no more than the tolerance of
   /// starts are at the limit. Zeros before the first joint states.
   [[nodiscard]] Configuration configuration() const override;
@@ -47,7 +50,7 @@ class Ros2Arm : public Arm {
           std::unique_ptr<SafetyMode> safety);
 
   [[nodiscard]] Configuration drivers_positions() const;
-  [[nodiscard]] Expected<void> fresh() const;
+  [[nodiscard]] Expected<bool> may_begin(const JointPath& path);
   [[nodiscard]] std::optional<MotionOutcome> refusal(const JointPath& path) const;
   [[nodiscard]] JointLimits limits() const;
   [[nodiscard]] std::optional<std::string> cancel_reason() const;

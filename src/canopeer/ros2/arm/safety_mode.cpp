@@ -3,14 +3,17 @@
 #include "canopeer/cdr/messages/ur_dashboard_msgs.h"
 
 namespace canopeer::ros {
+namespace {
 
-using Mode = ur_dashboard_msgs::SafetyMode;
+using UrSafetyMode = ur_dashboard_msgs::SafetyMode;
+
+}  // namespace
 
 Expected<std::unique_ptr<SafetyMode>> SafetyMode::make(Node& node, const std::string& topic) {
   auto safety = std::make_unique<SafetyMode>();
-  auto subscription = node.subscribe<Mode>(
+  auto subscription = node.subscribe<UrSafetyMode>(
       topic, kLatchedQos,
-      [raw = safety.get()](const Mode& message, const Guid&) { raw->take(message.mode); });
+      [raw = safety.get()](const UrSafetyMode& message, const Guid&) { raw->take(message.mode); });
   if (!subscription) return fail_in(topic, subscription.error());
   safety->subscription_ = std::move(*subscription);
   return safety;
@@ -19,24 +22,24 @@ Expected<std::unique_ptr<SafetyMode>> SafetyMode::make(Node& node, const std::st
 std::optional<std::string> SafetyMode::stop() const {
   switch (const std::uint8_t mode = mode_) {
     case 0:  // not said yet
-    case Mode::NORMAL:
-    case Mode::REDUCED:
+    case UrSafetyMode::NORMAL:
+    case UrSafetyMode::REDUCED:
       return std::nullopt;
-    case Mode::PROTECTIVE_STOP:
+    case UrSafetyMode::PROTECTIVE_STOP:
       return "protective stop";
-    case Mode::RECOVERY:
+    case UrSafetyMode::RECOVERY:
       return "recovery: a joint is beyond its safety limits";
-    case Mode::SAFEGUARD_STOP:
-    case Mode::AUTOMATIC_MODE_SAFEGUARD_STOP:
+    case UrSafetyMode::SAFEGUARD_STOP:
+    case UrSafetyMode::AUTOMATIC_MODE_SAFEGUARD_STOP:
       return "safeguard stop";
-    case Mode::SYSTEM_EMERGENCY_STOP:
-    case Mode::ROBOT_EMERGENCY_STOP:
+    case UrSafetyMode::SYSTEM_EMERGENCY_STOP:
+    case UrSafetyMode::ROBOT_EMERGENCY_STOP:
       return "emergency stop";
-    case Mode::VIOLATION:
+    case UrSafetyMode::VIOLATION:
       return "violation of a safety limit";
-    case Mode::FAULT:
+    case UrSafetyMode::FAULT:
       return "fault of the robot";
-    case Mode::SYSTEM_THREE_POSITION_ENABLING_STOP:
+    case UrSafetyMode::SYSTEM_THREE_POSITION_ENABLING_STOP:
       return "the enabling switch is not pressed";
     default:
       return "safety mode " + std::to_string(mode);

@@ -29,7 +29,9 @@ Expected<std::unique_ptr<TrajectoryClient>> TrajectoryClient::make(Node& node,
   return std::unique_ptr<TrajectoryClient>(new TrajectoryClient(action, std::move(*client)));
 }
 
-TrajectoryClient::~TrajectoryClient() = default;
+TrajectoryClient::~TrajectoryClient() {
+  if (under_way_) static_cast<void>(cancel());
+}
 
 Expected<bool> TrajectoryClient::send(const FollowJointTrajectory::Goal& goal) {
   const auto news = std::make_shared<News>();
@@ -51,7 +53,9 @@ Expected<bool> TrajectoryClient::send(const FollowJointTrajectory::Goal& goal) {
   };
   news_ = news;
   sent_ = Steady::now();
-  return client_->send(goal, std::move(events), kAnswer);
+  auto accepted = client_->send(goal, std::move(events), kAnswer);
+  under_way_ = accepted.value_or(false);
+  return accepted;
 }
 
 /// The end of the goal, if it comes in a moment. One whose result is lost ends without.
@@ -91,6 +95,7 @@ Expected<GoalEnding> TrajectoryClient::finish(const GoalWatch& watch) {
   Steady::time_point patience;
   while (true) {
     if (auto ending = wait_a_little()) {
+      under_way_ = false;
       ending->cancelled = std::move(cancelled);
       return *ending;
     }

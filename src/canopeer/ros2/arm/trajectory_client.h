@@ -39,6 +39,7 @@ class TrajectoryClient {
   /// `node` outlives the client.
   [[nodiscard]] static Expected<std::unique_ptr<TrajectoryClient>> make(Node& node,
                                                                         const std::string& action);
+  /// Cancels a goal that is under way.
   ~TrajectoryClient();
   [[nodiscard]] bool ready() const { return client_->ready(); }
   [[nodiscard]] const std::string& action() const { return action_; }
@@ -68,6 +69,7 @@ class TrajectoryClient {
   std::string action_;
   std::unique_ptr<ActionClient<FollowJointTrajectory>> client_;
   std::shared_ptr<News> news_;  ///< of the goal sent last
+  bool under_way_ = false;      ///< it is, as far as we know
   Steady::time_point sent_;
 };
 

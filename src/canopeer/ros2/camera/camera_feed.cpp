@@ -100,6 +100,9 @@ Expected<TimedFrame> CameraFeed::capture() {
   std::string why_none;
   Stamp from = 0, tried = 0;
   while (Steady::now() < deadline) {
+    if (auto ok = parts_.alive ? parts_.alive() : Expected<void>(); !ok) {
+      return tl::unexpected(ok.error());
+    }
     const auto counts = counts_from();
     if (!counts) {
       why_none = "not all of the arm's joints are in the joint states";

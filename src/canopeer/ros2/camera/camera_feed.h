@@ -37,6 +37,9 @@ class CameraFeed {
     /// Empty: nothing.
     std::function<std::string(const std::string& topic)> odd_publishers;
     std::function<double(Stamp)> mission_time_s;  ///< of a stamp by the clock of joint states
+    /// Asked while a frame is waited for. The error, which ends that: the robot is lost. Empty:
+    /// nobody knows.
+    std::function<Expected<void>()> alive{};
   };
   /// Joints and poses outlive it.
   CameraFeed(const Ros2CameraSettings& settings, Parts parts, const JointHistory& joints,
@@ -57,6 +60,11 @@ class CameraFeed {
   /// time, each at the pose of its time. Frames whose pose is not known yet are left for later.
   /// The last dozens are kept only: ask often.
   [[nodiscard]] std::vector<TimedFrame> frames_since(Stamp stamp);
+
+  /// Where the camera was, by the clock of joint states.
+  [[nodiscard]] Expected<Pose> pose_at(Stamp stamp, const std::string& frame_id) const {
+    return poses_->at(stamp, frame_id);
+  }
 
   /// Messages that could not be read.
   [[nodiscard]] std::int64_t malformed() const;

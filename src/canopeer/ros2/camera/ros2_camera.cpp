@@ -80,6 +80,7 @@ CameraFeed::Parts feed_parts(const Node& node, const Ros2CameraSettings& setting
     return "";
   };
   parts.mission_time_s = around.mission_time_s;
+  parts.alive = around.alive;
   return parts;
 }
 
@@ -100,7 +101,7 @@ std::vector<Ros2Camera::Topic> Ros2Camera::topics(const Ros2CameraSettings& sett
 Expected<std::unique_ptr<Ros2Camera>> Ros2Camera::make(Node& node,
                                                        const Ros2CameraSettings& settings,
                                                        const CameraSurroundings& around) {
-  std::unique_ptr<Ros2Camera> camera(new Ros2Camera());
+  std::unique_ptr<Ros2Camera> camera(new Ros2Camera(around.tf_span_s));
   std::unique_ptr<FramePoses> poses =
       settings.pose == "tf" ? poses_of_tf(around.robot, camera->tf_, settings.world_frame,
                                           settings.optical_frame, around.trolley)

@@ -19,6 +19,8 @@ struct CameraSurroundings {
   std::function<double(Stamp)> mission_time_s;  ///< of a stamp by the clock of joint states
   double min_range_m = 0.15;                    ///< nearer and farther surfaces give no return
   double max_range_m = 3.0;
+  double tf_span_s = 10.0;                  ///< how far back tf is remembered
+  std::function<Expected<void>()> alive{};  ///< see CameraFeed::Parts
 };
 
 /// The camera on ROS 2 topics, as a mission sees it. Thread-safe.
@@ -48,7 +50,7 @@ class Ros2Camera : public Camera {
   [[nodiscard]] Latencies latencies() const;
 
  private:
-  Ros2Camera() = default;
+  explicit Ros2Camera(double tf_span_s) : tf_(tf_span_s) {}
   [[nodiscard]] Expected<void> subscribe(Node& node, const Ros2CameraSettings& settings);
   [[nodiscard]] Expected<void> subscribe_part(Node& node, FramePart part, const std::string& topic,
                                               const Qos& qos);

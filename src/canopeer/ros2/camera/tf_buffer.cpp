@@ -9,7 +9,7 @@ namespace canopeer::ros {
 namespace {
 
 constexpr std::size_t kMostFrames = 2000;
-constexpr std::size_t kMostSamples = 4000;
+constexpr std::size_t kMostSamples = 100'000;
 /// Publishers overtake each other by milliseconds; by this much only a clock that was set.
 constexpr std::int64_t kClockJump = kNanosecondsPerSecond;
 

@@ -1,5 +1,6 @@
 #include "canopeer/ros2/out/frame_teller.h"
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -18,6 +19,13 @@ void pause_for(std::chrono::milliseconds time, const std::stop_token& stop) {
   std::mutex mutex;
   std::unique_lock lock(mutex);
   std::condition_variable_any().wait_for(lock, stop, time, [] { return false; });
+}
+
+bool told_by_others(Node& node) {
+  const auto publishers = node.publishers_of(kDescription);
+  return std::any_of(
+      publishers.begin(), publishers.end(),
+      [us = node.participant().id()](const Endpoint& e) { return participant_of(e.guid) != us; });
 }
 
 }  // namespace
@@ -60,8 +68,7 @@ void FrameTeller::tell_frames() {
 
 void FrameTeller::tell_description() {
   if (parts_.description.empty()) return;
-  const bool others = !parts_.node.publishers_of(kDescription).empty();
-  if (others) {
+  if (told_by_others(parts_.node)) {
     description_.reset();
   } else if (!description_) {
     auto publisher = parts_.node.advertise<std_msgs::String>(kDescription, kLatchedQos);

@@ -5,7 +5,7 @@
 namespace canopeer::ros {
 namespace {
 
-constexpr std::size_t kMostFrames = 10'000;
+constexpr std::size_t kMostOthers = 10'000;
 constexpr std::chrono::seconds kForgetAfter(10);
 
 /// Nothing for numbers that are no motion.
@@ -43,7 +43,7 @@ void OthersFrames::take(const tf2_msgs::TFMessage& message, bool is_static) {
   for (const auto& transform : message.transforms) {
     const auto T = motion_of(transform.transform);
     if (!T || transform.child_frame_id.empty() || transform.header.frame_id.empty()) continue;
-    if (heard_.size() >= kMostFrames && !heard_.contains(transform.child_frame_id)) continue;
+    if (heard_.size() >= kMostOthers && !heard_.contains(transform.child_frame_id)) continue;
     heard_[transform.child_frame_id] = {{transform.header.frame_id, *T}, Steady::now(), is_static};
   }
 }

@@ -35,7 +35,7 @@ class OthersFrames {
   void take(const tf2_msgs::TFMessage& message, bool is_static);
 
   mutable std::mutex mutex_;
-  std::map<std::string, Heard> heard_;  // no more than kMostFrames
+  std::map<std::string, Heard> heard_;  // no more than kMostOthers
   Subscription moving_;
   Subscription static_;
 };

@@ -11,7 +11,7 @@ namespace canopeer::ros {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
-using Json = nlohmann::ordered_json;
+using ProgressJson = nlohmann::ordered_json;
 
 DiagnosticStatus status_of(const std::string& name, std::uint8_t level, std::string message) {
   DiagnosticStatus status;
@@ -114,31 +114,31 @@ void Progress::add(const Event& event) {
 }
 
 std::string Progress::json() const {
-  Json json = {{"state", name_of(state_)},
-               {"why", why_},
-               {"t_s", t_s_},
-               {"segment", segment_.segment},
-               {"segments", segments_},
-               {"segment_name", segment_.name},
-               {"segment_start_s", segment_.start_s},
-               {"segment_time_s", segment_time_s_},
-               {"views", views_},
-               {"fruits", fruits_},
-               {"roi_voxels", roi_voxels_},
-               {"graph_nodes", graph_nodes_},
-               {"graph_edges", graph_edges_},
-               {"motions", motions_},
-               {"missed_motions", missed_motions_},
-               {"last_motion", nullptr},
-               {"interrupted", interrupted_},
-               {"lost_events", lost_events_}};
+  ProgressJson json = {{"state", name_of(state_)},
+                       {"why", why_},
+                       {"t_s", t_s_},
+                       {"segment", segment_.segment},
+                       {"segments", segments_},
+                       {"segment_name", segment_.name},
+                       {"segment_start_s", segment_.start_s},
+                       {"segment_time_s", segment_time_s_},
+                       {"views", views_},
+                       {"fruits", fruits_},
+                       {"roi_voxels", roi_voxels_},
+                       {"graph_nodes", graph_nodes_},
+                       {"graph_edges", graph_edges_},
+                       {"motions", motions_},
+                       {"missed_motions", missed_motions_},
+                       {"last_motion", nullptr},
+                       {"interrupted", interrupted_},
+                       {"lost_events", lost_events_}};
   if (motions_ > 0) {
     json["last_motion"] = {{"kind", motion_.kind},
                            {"ended", motion_.ended},
                            {"why", motion_.why},
                            {"duration_s", motion_.duration_s}};
   }
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json.dump(-1, ' ', false, ProgressJson::error_handler_t::replace);
 }
 
 std::vector<DiagnosticStatus> Progress::diagnostics(const std::string& node) const {

@@ -23,8 +23,7 @@ Expected<std::unique_ptr<Ros2Output>> Ros2Output::make(const Parts& parts) {
 Expected<void> Ros2Output::open(const Parts& parts) {
   auto watcher = Ros2Watcher::make({node_, clock_, settings_, parts.robot.setup().camera_frame});
   if (!watcher) return tl::unexpected(watcher.error());
-  teller_ = std::move(*watcher);
-  if (settings_.enabled) watcher_ = teller_;
+  watcher_ = std::move(*watcher);
   auto services = SteeringServices::make(
       {*node_, consent_, [this] { return save(); }, parts.settings.wait_for_start});
   if (!services) return tl::unexpected(services.error());
@@ -50,9 +49,9 @@ Expected<void> Ros2Output::open_parameters(const Parts& parts) {
                            100.0};
   };
   std::vector<ParameterAccess> live = {
-      rate("ros2.output.map_rate_hz", &Ros2OutputSettings::map_rate_hz),
-      rate("ros2.output.image_rate_hz", &Ros2OutputSettings::image_rate_hz),
-      {"ros2.confirm", "Every motion is asked for: ~/confirm, ~/refuse.",
+      rate("output.map_rate_hz", &Ros2OutputSettings::map_rate_hz),
+      rate("output.image_rate_hz", &Ros2OutputSettings::image_rate_hz),
+      {"confirm", "Every motion is asked for: ~/confirm, ~/refuse.",
        [this] { return parameter_value(consent_.asking()); },
        [this](const ParameterValue& value) -> Expected<void> {
          consent_.set_asking(value.bool_value);
@@ -84,7 +83,7 @@ Expected<void> Ros2Output::open_frames(const Parts& parts) {
 void Ros2Output::set_rate(double Ros2OutputSettings::*which, double rate_hz) {
   const std::lock_guard lock(mutex_);
   settings_.*which = rate_hz;
-  teller_->set_rates(settings_.map_rate_hz, settings_.image_rate_hz);
+  watcher_->set_rates(settings_.map_rate_hz, settings_.image_rate_hz);
 }
 
 void Ros2Output::save_into(const std::filesystem::path& out) {
@@ -99,13 +98,13 @@ Expected<std::string> Ros2Output::save() const {
     out = out_;
   }
   if (out.empty()) return fail("the run has no directory yet");
-  const auto written = teller_->save(out / "saved");
+  const auto written = watcher_->save(out / "saved");
   if (!written) return tl::unexpected(written.error());
   std::string text = "saved in " + (out / "saved").string() + ":";
   for (const auto& file : *written) text += " " + file.filename().string();
   return text;
 }
 
-void Ros2Output::tell(const std::string& text) const { teller_->say(LogLevel::warn, text); }
+void Ros2Output::tell(const std::string& text) const { watcher_->say(LogLevel::warn, text); }
 
 }  // namespace canopeer::ros

@@ -32,7 +32,7 @@ class Ros2Output {
   [[nodiscard]] static Expected<std::unique_ptr<Ros2Output>> make(const Parts& parts);
   ~Ros2Output();
 
-  /// Null where nothing is to be told (ros2.output.enabled).
+  /// Where `ros2.output.enabled` is false it speaks on /rosout only.
   [[nodiscard]] std::shared_ptr<Watcher> watcher() const { return watcher_; }
   [[nodiscard]] Steering& steering() { return *services_; }
   /// The run's directory: `~/save` writes into `saved` in it.
@@ -61,8 +61,7 @@ class Ros2Output {
   mutable std::mutex mutex_;
   Ros2OutputSettings settings_;
   std::filesystem::path out_;
-  std::shared_ptr<Ros2Watcher> teller_;  // /rosout is there even where nothing else is told
-  std::shared_ptr<Watcher> watcher_;
+  std::shared_ptr<Ros2Watcher> watcher_;
   MotionConsent consent_;
   std::unique_ptr<SteeringServices> services_;
   std::unique_ptr<FrameTeller> frames_;

@@ -17,11 +17,11 @@
 namespace canopeer::ros {
 namespace {
 
-using Steady = std::chrono::steady_clock;
+using TellingClock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr auto kLook = 50ms;         // for what is due
-constexpr auto kProgressEvery = 1s;  // and diagnostics, at least
+constexpr auto kLook = 50ms;        // for what is due
+constexpr auto kAtLeastEvery = 1s;  // progress; diagnostics no oftener
 
 /// What happened since the thread looked last; of most only the last one counts.
 struct News {
@@ -60,6 +60,7 @@ struct Ros2Watcher::State {
   void run(const std::stop_token& stop);
   void offer(const News& what);
   void tell_progress();
+  void tell_diagnostics();
 
   [[nodiscard]] Stamp stamp_at(double mission_s) const {
     return parts.clock->now() - nanoseconds(parts.clock->now_s() - mission_s);
@@ -74,6 +75,7 @@ Expected<void> Ros2Watcher::State::open() {
   auto said = Log::make(node, [clock = parts.clock] { return ros_time(clock->now()); });
   if (!said) return fail_in("/rosout", said.error());
   log.emplace(std::move(*said));
+  if (!parts.settings.enabled) return {};  // what has no topic is not told
   auto progress_publisher = node.advertise<std_msgs::String>("~/progress", kLatchedQos);
   if (!progress_publisher) return fail_in("~/progress", progress_publisher.error());
   progress_out = std::move(*progress_publisher);
@@ -103,7 +105,7 @@ void Ros2Watcher::State::note(const Event& event) {
 }
 
 void Ros2Watcher::State::run(const std::stop_token& stop) {
-  Steady::time_point told{};
+  TellingClock::time_point told{};
   while (true) {
     News what;
     ToldTopics::Rates at_most;
@@ -115,10 +117,12 @@ void Ros2Watcher::State::run(const std::stop_token& stop) {
     }
     offer(what);
     const bool last = what.ended || stop.stop_requested();
-    last ? topics.tell_all() : topics.tell_what_is_due(at_most);
-    if (last || what.progress || Steady::now() - told >= kProgressEvery) {
-      tell_progress();
-      told = Steady::now();
+    last ? topics.tell_all(at_most) : topics.tell_what_is_due(at_most);
+    const bool due = last || TellingClock::now() - told >= kAtLeastEvery;
+    if (due || what.progress) tell_progress();
+    if (due) {
+      tell_diagnostics();
+      told = TellingClock::now();
     }
     if (stop.stop_requested()) return;
   }
@@ -136,17 +140,24 @@ void Ros2Watcher::State::offer(const News& what) {
 }
 
 void Ros2Watcher::State::tell_progress() {
-  diagnostic_msgs::DiagnosticArray diagnostics;
   std_msgs::String text;
   {
     const std::lock_guard lock(mutex);
     text.data = progress.json();
+  }
+  progress_out.publish(text);
+}
+
+void Ros2Watcher::State::tell_diagnostics() {
+  if (diagnostics_out.readers() == 0) return;
+  diagnostic_msgs::DiagnosticArray diagnostics;
+  {
+    const std::lock_guard lock(mutex);
     diagnostics.status = progress.diagnostics(parts.node->options().name);
   }
   diagnostics.header.stamp = ros_time(parts.clock->now());
   diagnostics.status.push_back(network_diagnostics(*parts.node));
-  progress_out.publish(text);
-  if (diagnostics_out.readers() > 0) diagnostics_out.publish(diagnostics);
+  diagnostics_out.publish(diagnostics);
 }
 
 Ros2Watcher::Ros2Watcher(std::unique_ptr<State> state) : state_(std::move(state)) {

@@ -49,7 +49,8 @@ Expected<void> SteeringServices::open() {
     auto handler = [answer = respond](Trigger::Request&&, const auto& reply) { reply(answer()); };
     if (auto ok = serve(name, handler); !ok) return ok;
   }
-  return serve("~/save", [this](Trigger::Request&&, const auto& reply) { save(reply); });
+  saver_ = std::jthread([this](const std::stop_token& stop) { save_when_asked(stop); });
+  return serve("~/save", [this](Trigger::Request&&, const auto& reply) { ask_to_save(reply); });
 }
 
 SteeringWord SteeringServices::ask(const SteeringPoint& point) {
@@ -79,15 +80,28 @@ std_srvs::Trigger::Response SteeringServices::answer(bool yes) {
   return {true, (yes ? "allowed: " : "refused: ") + *question};
 }
 
-/// Writing a map takes longer than joint states may wait behind it.
-void SteeringServices::save(const Server<Trigger>::Reply& reply) {
-  if (saving_.exchange(true)) return reply({false, "results are being written already"});
-  saver_ = std::jthread([this, reply] {
+void SteeringServices::ask_to_save(const Server<Trigger>::Reply& reply) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (save_for_) return reply({false, "results are being written already"});
+    save_for_ = reply;
+  }
+  save_asked_.notify_all();
+}
+
+/// In a thread of its own: writing a map takes longer than joint states may wait behind it.
+void SteeringServices::save_when_asked(const std::stop_token& stop) {
+  while (true) {
+    std::unique_lock lock(mutex_);
+    if (!save_asked_.wait(lock, stop, [&] { return save_for_.has_value(); })) return;
+    lock.unlock();
     const auto saved = parts_.save();
-    saving_ = false;
+    lock.lock();
+    const auto reply = *std::exchange(save_for_, std::nullopt);
+    lock.unlock();
     reply(saved ? Trigger::Response{true, *saved}
                 : Trigger::Response{false, saved.error().message});
-  });
+  }
 }
 
 }  // namespace canopeer::ros

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -39,15 +42,18 @@ class SteeringServices : public Steering {
   [[nodiscard]] Trigger::Response say(SteeringWord::Kind kind, const std::string& what_happens);
   [[nodiscard]] Trigger::Response go_on();
   [[nodiscard]] Trigger::Response answer(bool yes);
-  void save(const Server<Trigger>::Reply& reply);
+  void ask_to_save(const Server<Trigger>::Reply& reply);
+  void save_when_asked(const std::stop_token& stop);
 
   Parts parts_;
   SteeringDesk desk_;
   std::atomic<bool> holding_{false};
   std::atomic<bool> stop_asked_{false};
-  std::atomic<bool> saving_{false};
-  std::vector<Server<Trigger>> servers_;  // their handlers use all above
-  std::jthread saver_;                    // first to go: it answers
+  std::mutex mutex_;
+  std::condition_variable_any save_asked_;
+  std::optional<Server<Trigger>::Reply> save_for_;  ///< who is told when it is done
+  std::vector<Server<Trigger>> servers_;            // their handlers use all above
+  std::jthread saver_;                              // first to go: it answers
 };
 
 }  // namespace canopeer::ros

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <optional>
@@ -30,14 +31,15 @@ class ToldTopic {
   /// `rate_hz`: at most so many a second; 0: none.
   void tell_if_due(Steady::time_point now, double rate_hz) {
     if (!make_ || rate_hz <= 0.0) return;
-    const std::chrono::duration<double> since = now - told_.value_or(Steady::time_point{});
-    if (told_ && since.count() < 1.0 / rate_hz) return;
-    tell(now);
+    const auto pause = std::max(std::chrono::duration<double>(1.0 / rate_hz), 9.0 * effort_);
+    if (!told_ || now - *told_ >= pause) tell(now);
   }
   /// Whether its time has come or not.
   void tell(Steady::time_point now) {
     if (!make_ || publisher_.readers() == 0) return;
+    const auto begun = Steady::now();
     if (const auto message = std::exchange(make_, nullptr)()) publisher_.publish(*message);
+    effort_ = Steady::now() - begun;
     told_ = now;
   }
 
@@ -45,6 +47,7 @@ class ToldTopic {
   Publisher<Message> publisher_;
   Make make_;
   std::optional<Steady::time_point> told_;
+  std::chrono::duration<double> effort_{0.0};  ///< of the last one
 };
 
 }  // namespace canopeer::ros

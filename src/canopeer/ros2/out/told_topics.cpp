@@ -85,9 +85,11 @@ void ToldTopics::tell_what_is_due(const Rates& rates) {
   for_each(rates, [&](auto& topic, double rate_hz) { topic.tell_if_due(now, rate_hz); });
 }
 
-void ToldTopics::tell_all() {
+void ToldTopics::tell_all(const Rates& rates) {
   const auto now = std::chrono::steady_clock::now();
-  for_each({}, [&](auto& topic, double) { topic.tell(now); });
+  for_each(rates, [&](auto& topic, double rate_hz) {
+    if (rate_hz > 0.0) topic.tell(now);
+  });
 }
 
 }  // namespace canopeer::ros

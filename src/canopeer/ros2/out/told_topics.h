@@ -30,7 +30,8 @@ class ToldTopics {
     double image_hz = 2.0;
   };
   void tell_what_is_due(const Rates& rates);
-  void tell_all();
+  /// The newest of those that are told at all.
+  void tell_all(const Rates& rates);
 
  private:
   /// `tell(topic, rate)` of each.

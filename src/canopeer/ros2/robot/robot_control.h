@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <thread>
 #include <vector>
@@ -28,9 +29,10 @@ class RobotControl {
                                                                      const Ros2Settings& names,
                                                                      const SimulatedPlace& place,
                                                                      double rate_hz, bool split);
-  ~RobotControl();
   [[nodiscard]] TrajectoryServer::Counts arm_counts() const { return arm_.counts(); }
   void release() { arm_.release(); }
+  /// The longest that nothing was said of the joints, though no fault wants it so.
+  [[nodiscard]] double longest_gap_s() const { return longest_gap_s_; }
 
  private:
   RobotControl(const Parts& parts, const Ros2Settings& names, const SimulatedPlace& place);
@@ -48,6 +50,7 @@ class RobotControl {
   Publisher<std_msgs::Float64> speed_scaling_;
   Publisher<ur_dashboard_msgs::SafetyMode> safety_mode_;
   std::uint8_t said_mode_ = 0;
+  std::atomic<double> longest_gap_s_{0.0};
   std::jthread worker_;
 };
 

@@ -1,6 +1,5 @@
 #include "canopeer/ros2/robot/trajectory_server.h"
 
-#include <thread>
 #include <utility>
 
 namespace canopeer::ros {
@@ -9,28 +8,20 @@ TrajectoryServer::TrajectoryServer(TrajectoryController controller, RobotFaults&
                                    bool of_arm)
     : controller_(std::move(controller)), faults_(faults), of_arm_(of_arm) {}
 
-TrajectoryServer::~TrajectoryServer() { leave(); }
-
 Expected<void> TrajectoryServer::serve(Node& node, const std::string& action) {
   auto server = ActionServer<Action>::make(
       node, action,
       {[this](const UUID&, const Action::Goal& goal) { return accept(goal); },
        [this](const UUID& id, const Action::Goal& goal) { start(id, goal); },
-       [this](const UUID& id) { return cancel(id); }});
+       [this](const UUID& id) { return cancel(id); },
+       [this] { return faults_.on(RobotFault::vanish); }});
   if (!server) return tl::unexpected(server.error());
   server_ = std::move(*server);
   return {};
 }
 
-void TrajectoryServer::wait_while_vanished() const {
-  while (faults_.on(RobotFault::vanish) && !leaving_) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-}
-
 bool TrajectoryServer::accept(const Action::Goal& goal) {
   if (of_arm_) faults_.begin_motion();
-  wait_while_vanished();
   const std::scoped_lock lock(mutex_);
   ++counts_.goals;
   const bool accepted = controller_.check(goal).has_value();
@@ -44,7 +35,6 @@ void TrajectoryServer::start(const UUID& id, const Action::Goal& goal) {
 }
 
 bool TrajectoryServer::cancel(const UUID& id) {
-  wait_while_vanished();
   const std::scoped_lock lock(mutex_);
   return controller_.cancel(id);
 }

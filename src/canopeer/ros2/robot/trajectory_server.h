@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -21,7 +20,6 @@ class TrajectoryServer {
   };
   /// What it refers to outlives the server. `of_arm`: faults of motions happen to it.
   TrajectoryServer(TrajectoryController controller, RobotFaults& faults, bool of_arm);
-  ~TrajectoryServer();
   [[nodiscard]] Expected<void> serve(Node& node, const std::string& action);
 
   /// Time passes; called by one thread. The controller moves, and what there is to say is said.
@@ -37,15 +35,12 @@ class TrajectoryServer {
   [[nodiscard]] bool stopped() const;
   [[nodiscard]] double speed_scale() const;
   [[nodiscard]] Counts counts() const;
-  /// Handlers that wait, because the robot has vanished, wait no longer.
-  void leave() { leaving_ = true; }
 
  private:
   using Action = control_msgs::FollowJointTrajectory;
   [[nodiscard]] bool accept(const Action::Goal& goal);
   void start(const UUID& id, const Action::Goal& goal);
   [[nodiscard]] bool cancel(const UUID& id);
-  void wait_while_vanished() const;
 
   mutable std::mutex mutex_;  // of controller_, ends_, counts_
   TrajectoryController controller_;
@@ -53,7 +48,6 @@ class TrajectoryServer {
   bool of_arm_;
   std::vector<GoalEnd> ends_;  ///< of goals that others took the place of
   Counts counts_;
-  std::atomic<bool> leaving_{false};
   std::unique_ptr<ActionServer<Action>> server_;  // last: goes before what its handlers use
 };
 

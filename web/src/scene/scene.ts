@@ -1,0 +1,75 @@
+import type { App } from "../app.ts";
+import type { View } from "../data/messages.ts";
+import type { Timeline } from "../data/timeline.ts";
+import type { Moment, Selection } from "../moment.ts";
+import { Pointer } from "./pointer.ts";
+import { Stage } from "./stage.ts";
+import { World } from "./world.ts";
+
+/** The 3D picture as the page uses it. */
+export class Scene {
+  private readonly world: World;
+  private moment: Moment | null = null;
+
+  constructor(holder: HTMLElement, app: App) {
+    const stage = new Stage(holder);
+    stage.canvas.setAttribute("aria-label", "The row, the robot and what it knows, in 3D");
+    this.world = new World(stage, app.layers, app.theme);
+    stage.controls.addEventListener("start", () => this.world.setFollow(false));
+    new Pointer(holder, this.world, app.layers, () => this.moment, (selection) => {
+      if (selection?.is === "view") app.selectView(selection.view);
+      if (selection?.is === "fruit") app.selectFruit(selection.id);
+    });
+    app.layers.listen(() => this.moment && this.show(this.moment));
+  }
+
+  load(timeline: Timeline): void {
+    this.world.load(timeline);
+  }
+
+  show(moment: Moment): void {
+    this.moment = moment;
+    this.world.show(moment.t, moment.step);
+  }
+
+  choose(selection: Selection, view: View | null): void {
+    this.world.chooseView(view);
+    this.world.chooseFruit(selection?.is === "fruit" ? selection.id : -1);
+  }
+
+  look(where: "robot" | "row" | "camera", t: number): void {
+    this.world.setFollow(where === "camera");
+    if (where === "camera") {
+      if (this.moment) this.show(this.moment);
+    } else {
+      this.world.frame(where === "row", t);
+    }
+  }
+
+  /** What the camera saw in a view; null: there is no picture. */
+  setPicture(image: ImageBitmap | null, view: View | null): void {
+    if (view) this.world.sheet.show(image, view.T_world_camera);
+    this.world.stage.ask();
+  }
+
+  /** How fast it draws, for tests. */
+  get figures(): { frames: number; frame_ms: number; voxels: number; slow: boolean } {
+    const { frames, frame_ms, slow } = this.world.stage;
+    return { frames, frame_ms, voxels: this.world.map.count, slow };
+  }
+
+  /** Where a point of the world is, in pixels of the page, for tests. */
+  locate(point: readonly [number, number, number]): { x: number; y: number } {
+    return this.world.locate(point);
+  }
+}
+
+/** Null where the browser has no WebGL 2. */
+export function openScene(holder: HTMLElement, app: App): Scene | null {
+  try {
+    return new Scene(holder, app);
+  } catch (error) {
+    console.warn(error);
+    return null;
+  }
+}

@@ -1,0 +1,138 @@
+import assert from "node:assert/strict";
+import test from "node:test";
+import type { Message } from "../src/data/messages.ts";
+import { readFrame } from "../src/data/protocol.ts";
+import { blockIndex, blockKey } from "../src/data/block_history.ts";
+import { edgeEnds, edgeKey, Timeline } from "../src/data/timeline.ts";
+import { Trail } from "../src/data/trail.ts";
+import { cameraPose } from "../src/data/kinematics.ts";
+import { frame } from "./made/frames.ts";
+import { makeRun } from "./made/run.ts";
+
+const messages = makeRun({ segments: 3, views: 6, plants: 2, leafVoxels: 20 }).map((f) => readFrame(f) as Message);
+
+function timelineOf(count = messages.length): Timeline {
+  const timeline = new Timeline();
+  for (const message of messages.slice(0, count)) timeline.append(message);
+  return timeline;
+}
+
+const read = (head: Record<string, unknown>, ...octets: ArrayBufferView[]) => readFrame(frame(head, ...octets)) as Message;
+
+test("block and edge keys come back", () => {
+  for (const [x, y, z] of [[0, 0, 0], [-1, 5, -65536], [65535, -3, 12]])
+    assert.deepEqual(blockIndex(blockKey(x, y, z)), [x, y, z]);
+  assert.deepEqual(edgeEnds(edgeKey(7, 3)), [3, 7]);
+  assert.equal(edgeKey(7, 3), edgeKey(3, 7));
+});
+
+test("at any message, a long run looks like one that ended there", () => {
+  const all = timelineOf();
+  for (let count = 1; count <= messages.length; count += 5) {
+    const step = count - 1;
+    const short = timelineOf(count);
+    for (const layer of ["map", "targets", "fruits", "nodes", "edges", "visited"] as const) {
+      const now = new Map<number, unknown>([...short[layer].entriesAt(step)]);
+      const again = new Map<number, unknown>([...all[layer].entriesAt(step)]);
+      assert.deepEqual(again, now);
+    }
+    assert.deepEqual(all.planAt(step)?.path, short.planAt(step)?.path);
+    assert.deepEqual(all.workAt(step), short.workAt(step));
+  }
+});
+
+test("at the time of a view, all that came with it has come", () => {
+  const timeline = timelineOf();
+  for (const view of timeline.views) {
+    const step = timeline.stepAt(view.t);
+    assert.equal(timeline.viewAt(view.t), view);
+    const next = messages[step + 1];
+    assert.ok(next === undefined || !("view" in next) || next.view !== view.view);
+  }
+  assert.equal(timeline.viewAt(-1), null);
+});
+
+test("the robot stands at every view where the view says", () => {
+  const timeline = timelineOf();
+  const { robot, tracks } = timeline;
+  assert.ok(robot);
+  for (const view of timeline.views) {
+    const T = cameraPose(robot, tracks.at(view.t));
+    for (let i = 0; i < 12; ++i) assert.ok(Math.abs(T[i] - view.T_world_camera[i]) < 1e-5);
+  }
+});
+
+test("between two views it does not jump", () => {
+  const timeline = timelineOf();
+  const { robot, tracks } = timeline;
+  assert.ok(robot);
+  let before = cameraPose(robot, tracks.at(0));
+  for (let t = 0; t < timeline.duration; t += 0.02) {
+    const T = cameraPose(robot, tracks.at(t));
+    assert.ok(Math.hypot(T[3] - before[3], T[7] - before[7], T[11] - before[11]) < 0.12, `at ${t}`);
+    before = T;
+  }
+});
+
+test("a motion that ends early stops the arm there", () => {
+  const timeline = timelineOf(3);
+  const head = { type: "motion", kind: "view", segment: 0, t_s: 1, duration_s: 2, rate_hz: 1, joints: 1, points: 3 };
+  timeline.append(read(head, Float32Array.of(0, 1, 2)));
+  assert.equal(timeline.tracks.at(2.5).q[0], 1.5);
+  timeline.append(read({ type: "motion_end", t_s: 2, ended: "stopped", why: "by hand" }));
+  assert.equal(timeline.tracks.at(2.5).q[0], 1);
+  assert.match(timeline.events.at(-1)?.text ?? "", /stopped.*by hand/);
+});
+
+test("a fresh plan forgets the graph before it", () => {
+  const timeline = new Timeline();
+  const plan = (fresh: boolean, id: number) =>
+    read(
+      { type: "plan", t_s: id, fresh, views: 1, edges: 1, gone_edges: 0, path: [], at: id, visited: [id] },
+      Int32Array.of(id), new Float32Array(6), Uint8Array.of(1), Int32Array.of(id, id + 1),
+    ); // prettier-ignore
+  timeline.append(plan(true, 1));
+  timeline.append(plan(false, 2));
+  timeline.append(plan(true, 3));
+  const ids = (step: number) => [...timeline.nodes.entriesAt(step)].map(([id]) => id);
+  assert.deepEqual(ids(1), [1, 2]);
+  assert.deepEqual(ids(2), [3]);
+  assert.deepEqual([...timeline.visited.entriesAt(2)], [[3, true]]);
+});
+
+test("time does not run backwards", () => {
+  const timeline = new Timeline();
+  timeline.append(read({ type: "log", t_s: 5, text: "late" }));
+  timeline.append(read({ type: "log", t_s: 3, text: "early" }));
+  assert.equal(timeline.newest, 5);
+  assert.equal(timeline.stepAt(5), 1);
+  assert.equal(timeline.stepAt(4.9), -1);
+});
+
+test("blocks that become empty are gone", () => {
+  const timeline = new Timeline();
+  const map = (fill: number) =>
+    read({ type: "map", view: 0, t_s: 0, blocks: 1 }, Int32Array.of(1, 2, 3), new Uint8Array(128).fill(fill));
+  timeline.append(map(1));
+  timeline.append(map(0));
+  const version = timeline.map.at(blockKey(1, 2, 3), 0);
+  assert.deepEqual(timeline.map.octets(version ?? -1), new Uint8Array(128).fill(1));
+  assert.equal(timeline.map.at(blockKey(1, 2, 3), 1), undefined);
+});
+
+test("the camera's way grows with the run and is cut where a motion was", () => {
+  const timeline = timelineOf();
+  const trail = new Trail();
+  assert.ok(trail.extend(timeline));
+  assert.ok(!trail.extend(timeline));
+  assert.equal(trail.points.length, 6 * trail.times.length);
+  assert.equal(trail.countAt(timeline.duration), trail.times.length);
+  const before = trail.times.length;
+  const head = { type: "motion", kind: "view", segment: 2, t_s: timeline.newest, duration_s: 1, rate_hz: 1, joints: 6, points: 2 };
+  timeline.append(read(head, new Float32Array(12)));
+  trail.extend(timeline);
+  const whole = trail.times.length;
+  timeline.append(read({ type: "motion_end", t_s: timeline.newest + 0.5, ended: "aborted" }));
+  trail.extend(timeline);
+  assert.ok(before < trail.times.length && trail.times.length < whole);
+});
