@@ -240,6 +240,16 @@ TEST_F(MissionTest, AnArmThatNeverArrivesEndsTheRun) {
   EXPECT_TRUE(record_.interrupted);
 }
 
+TEST_F(MissionTest, AnArmThatIsNeverAllowedToMoveGoesThroughAllSegmentsAllTheSame) {
+  Simulation simulation = simulate();
+  Ports ports = simulation.ports();
+  StumblingArm arm(*ports.arm, std::vector<MotionEnd>(999, MotionEnd::withheld));
+  ports.arm = &arm;
+  ASSERT_TRUE(run(simulation, ports).has_value());
+  EXPECT_FALSE(record_.interrupted);
+  EXPECT_EQ(record_.segments.size(), 2U);
+}
+
 TEST_F(MissionTest, AfterAProtectiveStopAPersonIsWaitedFor) {
   Simulation simulation = simulate();
   Ports ports = simulation.ports();
