@@ -18,4 +18,12 @@ export function listenToKeys(calls: KeyCalls): void {
     event.preventDefault();
     call();
   });
+
+  // After a click, keys are the page's again; who moves by keys keeps the focus.
+  document.addEventListener("pointerup", () => setTimeout(releaseFocus));
+}
+
+function releaseFocus(): void {
+  const at = document.activeElement;
+  if (at instanceof HTMLElement && at.matches("button, input[type=checkbox]") && !at.closest("dialog")) at.blur();
 }

@@ -48,6 +48,17 @@ export class Layers {
     this.tell();
   }
 
+  /** Those that are on. */
+  get shown(): LayerId[] {
+    return kLayers.map((l) => l.id).filter((id) => this.isOn(id));
+  }
+
+  /** These, and no others. */
+  show(ids: LayerId[]): void {
+    for (const { id } of kLayers) this.on.set(id, ids.includes(id));
+    this.tell();
+  }
+
   listen(listener: () => void): void {
     this.listeners.push(listener);
     listener();

@@ -53,6 +53,23 @@ export class BlockCloud {
     return count;
   }
 
+  /** Chunks that are not made yet. */
+  get pending(): number {
+    return this.dirty.size;
+  }
+
+  /** The middle of a voxel that has all these flags, at least half a metre above the floor. */
+  somewhere(flags: number): [number, number, number] {
+    const size = this.resolution;
+    for (const { voxels, origin } of this.chunks.values())
+      for (let i = 0; i < 4 * voxels.count; i += 4) {
+        if ((voxels.cells[i + 3] & flags) !== flags) continue;
+        const at = [0, 1, 2].map((k) => origin.getComponent(k) + (voxels.cells[i + k] + 0.5) * size);
+        if (at[2] > 0.5) return [at[0], at[1], at[2]];
+      }
+    return [0, 0, 0];
+  }
+
   /** Forgets all; voxels are so large from now on. */
   reset(resolution: number): void {
     for (const key of [...this.chunks.keys()]) this.drop(key);

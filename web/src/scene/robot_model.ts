@@ -40,6 +40,13 @@ export class RobotModel {
     });
   }
 
+  /** A point in the middle of its largest part. */
+  somewhere(): [number, number, number] {
+    const boxes = this.links.map((link) => new THREE.Box3().setFromObject(link));
+    boxes.sort((a, b) => b.getSize(new THREE.Vector3()).length() - a.getSize(new THREE.Vector3()).length());
+    return (boxes[0] ?? new THREE.Box3()).getCenter(new THREE.Vector3()).toArray();
+  }
+
   clear(): void {
     for (const link of this.links) dispose(link);
     this.links = [];

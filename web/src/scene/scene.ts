@@ -3,18 +3,22 @@ import type { View } from "../data/messages.ts";
 import type { Timeline } from "../data/timeline.ts";
 import type { Moment, Selection } from "../moment.ts";
 import { Pointer } from "./pointer.ts";
+import { SceneProbe } from "./probe.ts";
 import { Stage } from "./stage.ts";
 import { World } from "./world.ts";
 
 /** The 3D picture as the page uses it. */
 export class Scene {
   private readonly world: World;
+  /** For tests in a browser. */
+  readonly probe: SceneProbe;
   private moment: Moment | null = null;
 
   constructor(holder: HTMLElement, app: App) {
     const stage = new Stage(holder);
     stage.canvas.setAttribute("aria-label", "The row, the robot and what it knows, in 3D");
     this.world = new World(stage, app.layers, app.theme);
+    this.probe = new SceneProbe(this.world, app.layers);
     stage.controls.addEventListener("start", () => this.world.setFollow(false));
     new Pointer(holder, this.world, app.layers, () => this.moment, (selection) => {
       if (selection?.is === "view") app.selectView(selection.view);
@@ -50,17 +54,6 @@ export class Scene {
   setPicture(image: ImageBitmap | null, view: View | null): void {
     if (view) this.world.sheet.show(image, view.T_world_camera);
     this.world.stage.ask();
-  }
-
-  /** How fast it draws, for tests. */
-  get figures(): { frames: number; frame_ms: number; voxels: number; slow: boolean } {
-    const { frames, frame_ms, slow } = this.world.stage;
-    return { frames, frame_ms, voxels: this.world.map.count, slow };
-  }
-
-  /** Where a point of the world is, in pixels of the page, for tests. */
-  locate(point: readonly [number, number, number]): { x: number; y: number } {
-    return this.world.locate(point);
   }
 }
 

@@ -180,7 +180,11 @@ export class Stage {
   }
 
   private drawFinely(): void {
-    if (this.asked) return;
+    if (!this.asked) this.drawNow();
+  }
+
+  /** Draws at once, as finely as it can. */
+  drawNow(): void {
     this.fine = true;
     this.applyScale(1);
     for (const call of this.before) call(performance.now());

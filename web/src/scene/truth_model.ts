@@ -49,6 +49,16 @@ export class TruthModel {
     this.material.emissive.set(palette.background).multiplyScalar(1 - kStrength);
   }
 
+  /** A corner of a plant. */
+  somewhere(): [number, number, number] {
+    const mesh = this.plants.children[0] as THREE.Mesh | undefined;
+    const position = mesh?.geometry.getAttribute("position");
+    if (!position) return [0, 0, 0];
+    const triangle = mesh?.geometry.index?.array.slice(0, 3) ?? [0, 1, 2];
+    const mean = (k: number) => [0, 1, 2].reduce((sum, i) => sum + position.getComponent(triangle[i], k) / 3, 0);
+    return [mean(0), mean(1), mean(2)];
+  }
+
   clear(): void {
     for (const group of [this.plants, this.around]) for (const child of [...group.children]) dispose(child);
   }

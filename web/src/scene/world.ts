@@ -127,13 +127,6 @@ export class World {
     this.stage.flyTo(target.clone().add(away), target);
   }
 
-  /** Pixels of the page where a point is. */
-  locate(point: readonly [number, number, number]): { x: number; y: number } {
-    const at = this.stage.toScreen(new THREE.Vector3(...point));
-    const box = this.stage.canvas.getBoundingClientRect();
-    return { x: box.left + at.x, y: box.top + at.y };
-  }
-
   /** What there is of a robot, plants and places. */
   private takeStill(timeline: Timeline): void {
     if (timeline.robot && !this.known.robot) {
