@@ -48,6 +48,7 @@ struct Shared {
   ViewControls controls;
   ViewGuard guard;
   std::atomic<int> readers{0};
+  std::atomic<int> behind{0};  // readers who have not got all that is there
   int connections = 0;
 };
 
@@ -57,7 +58,10 @@ class Reader : public std::enable_shared_from_this<Reader> {
   Reader(beast::tcp_stream&& stream, Shared& shared) : socket_(std::move(stream)), shared_(shared) {
     ++shared_.readers;
   }
-  ~Reader() { --shared_.readers; }
+  ~Reader() {
+    --shared_.readers;
+    if (behind_) --shared_.behind;
+  }
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
@@ -85,7 +89,9 @@ class Reader : public std::enable_shared_from_this<Reader> {
   /// Sends what is there, one frame after the other; called when there may be more.
   void pump() {
     if (sending_ || !socket_.is_open()) return;
-    if (waiting_.empty() && !next_piece()) return;
+    const bool more = !waiting_.empty() || next_piece();
+    if (more != std::exchange(behind_, more)) shared_.behind += more ? 1 : -1;
+    if (!more) return;
     sending_ = true;
     socket_.async_write(asio::buffer(waiting_.front()),
                         [self = shared_from_this()](beast::error_code error, std::size_t) {
@@ -122,7 +128,10 @@ class Reader : public std::enable_shared_from_this<Reader> {
       // Who reads from the beginning gets all; who falls behind meanwhile has pictures left out.
       const bool hurry = caught_up_ && pieces - piece_ > kFarBehind;
       auto frames = shared_.log->piece(piece_++);
-      if (!frames) return false;
+      if (!frames) {
+        close();
+        return false;
+      }
       for (std::string& frame : *frames) {
         if (hurry && frame_type(frame) == "picture") {
           ++left_out_;
@@ -183,6 +192,7 @@ class Reader : public std::enable_shared_from_this<Reader> {
   bool may_steer_ = false;
   bool sending_ = false;
   bool caught_up_ = false;
+  bool behind_ = false;
   std::size_t piece_ = 0;  // the next one
   std::int64_t left_out_ = 0;
   std::deque<std::string> waiting_;
@@ -236,8 +246,10 @@ class Request : public std::enable_shared_from_this<Request> {
       return send(http::status::method_not_allowed, "text/plain", "Only GET.\n");
     }
     const std::string_view path = path_of(target);
-    if (path == "/")
-      return send(http::status::ok, "text/html; charset=utf-8", shared_.options.page);
+    if (path == "/") {
+      return send(http::status::ok, "text/html; charset=utf-8", shared_.options.page,
+                  "'unsafe-inline'");
+    }
     if (path == "/report.html") {
       if (auto report = read_file(shared_.options.report))
         return send(http::status::ok, "text/html; charset=utf-8", *report);
@@ -260,15 +272,18 @@ class Request : public std::enable_shared_from_this<Request> {
     reader->begin(parser_.get());
   }
 
-  void send(http::status status, const char* type, std::string_view body) {
+  void send(http::status status, const char* type, std::string_view body,
+            std::string_view scripts = "'none'") {
     auto response = std::make_shared<http::response<http::string_body>>(status, 11);
     response->set(http::field::content_type, type);
     response->set(http::field::cache_control, "no-store");
     response->set("X-Content-Type-Options", "nosniff");
     response->set("Referrer-Policy", "no-referrer");
-    response->set("Content-Security-Policy",
-                  "default-src 'self' data: blob: 'unsafe-inline'; connect-src 'self' ws:; "
-                  "frame-ancestors 'none'");
+    response->set(
+        "Content-Security-Policy",
+        "default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; script-src " +
+            std::string(scripts) + "; connect-src ws://" + field(http::field::host) +
+            "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
     response->keep_alive(false);
     response->body() = std::string(body);
     response->prepare_payload();
@@ -290,17 +305,19 @@ class Request : public std::enable_shared_from_this<Request> {
 }  // namespace
 
 struct ViewServer::State {
+  std::unique_ptr<Shared> shared;  // outlives the connections, which the context holds
   asio::io_context context{1};
   tcp::acceptor acceptor{context};
+  asio::steady_timer rest{context};
   std::vector<std::weak_ptr<Reader>> all_readers;
-  std::unique_ptr<Shared> shared;
   std::uint16_t port = 0;
   std::jthread thread;
 
   void accept() {
     acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
       if (error == asio::error::operation_aborted) return;
-      if (!error && shared->connections < kMostConnections) {
+      if (error) return accept_later();  // no more files, say
+      if (shared->connections < kMostConnections) {
         std::make_shared<Request>(std::move(socket), *shared, [this](const auto& reader) {
           std::erase_if(all_readers, [](const auto& one) { return one.expired(); });
           all_readers.push_back(reader);
@@ -308,6 +325,22 @@ struct ViewServer::State {
       }
       accept();
     });
+  }
+  void accept_later() {
+    rest.expires_after(std::chrono::milliseconds(100));
+    rest.async_wait([this](beast::error_code error) {
+      if (!error) accept();
+    });
+  }
+  /// What one connection throws ends that one; a robot may be in the middle of a motion.
+  void serve() {
+    while (!context.stopped()) {
+      try {
+        context.run();
+      } catch (const std::exception&) {
+        continue;
+      }
+    }
   }
   void pump_all() {
     for (const auto& one : all_readers) {
@@ -342,19 +375,24 @@ Expected<std::unique_ptr<ViewServer>> ViewServer::start(const ViewServerOptions&
   State* const s = state.get();
   s->shared->log->on_append([s] { asio::post(s->context, [s] { s->pump_all(); }); });
   s->accept();
-  s->thread = std::jthread([s] { s->context.run(); });
+  s->thread = std::jthread([s] { s->serve(); });
   return std::unique_ptr<ViewServer>(new ViewServer(std::move(state)));
 }
 
 ViewServer::~ViewServer() {
   state_->shared->log->on_append({});
+  // Who looks on gets the end of the run too, if it takes no longer than that.
+  for (int i = 0; i < 50 && state_->shared->behind > 0; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
   state_->context.stop();
   state_->thread.join();
 }
 
 std::string ViewServer::link() const {
   const std::string& address = state_->shared->options.address;
-  const std::string host = address == "0.0.0.0" ? host_name() : address;
+  const bool any = address == "0.0.0.0" || address == "::";
+  const bool v6 = !any && address.find(':') != std::string::npos;
+  const std::string host = any ? host_name() : v6 ? "[" + address + "]" : address;
   const std::string& token = state_->shared->options.token;
   return "http://" + host + ":" + std::to_string(state_->port) + "/" +
          (token.empty() ? "" : "?token=" + token);
