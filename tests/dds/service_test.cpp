@@ -46,7 +46,12 @@ TEST(Service, AnswersTheFirstCallAndAllAfterIt) {
 
 TEST(Service, ManyClientsGetEachItsOwnAnswer) {
   const auto there = make_node("there");
-  const auto server = contrary(*there, "/turn");
+  std::atomic<int> asked{0};
+  const auto server =
+      must(Server<SetBool>::make(*there, "/turn", [&](SetBool::Request&& request, auto reply) {
+        ++asked;
+        reply({!request.data, "no"});
+      }));
   std::atomic<int> right{0};
   std::vector<std::jthread> askers;
   for (int k = 0; k < 4; ++k) {
@@ -64,6 +69,7 @@ TEST(Service, ManyClientsGetEachItsOwnAnswer) {
   }
   askers.clear();
   EXPECT_EQ(right, 200);
+  EXPECT_EQ(asked, 400);
 }
 
 TEST(Service, AnswersMayComeLaterAndFromAnotherThread) {

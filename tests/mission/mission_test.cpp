@@ -38,11 +38,13 @@ class StumblingArm : public Arm {
   Expected<double> start(const JointPath& path) override {
     end_ = begun_ < ends_.size() ? ends_[begun_] : MotionEnd::arrived;
     ++begun_;
+    if (end_ == MotionEnd::withheld) return 0.0;  // it stays where it is
     if (end_ == MotionEnd::arrived) return arm_.start(path);
     const PathMotion whole(path, test::test_robot().limits());
     return arm_.start({{path.waypoints.front(), whole.at(0.5 * whole.duration_s())}, {}});
   }
   Expected<MotionOutcome> finish() override {
+    if (end_ == MotionEnd::withheld) return MotionOutcome{configuration(), end_, "told to"};
     auto outcome = arm_.finish();
     if (!outcome || end_ == MotionEnd::arrived) return outcome;
     outcome->end = end_;
@@ -238,6 +240,17 @@ TEST_F(MissionTest, AnArmThatNeverArrivesEndsTheRun) {
       << outcome.error().message;
   EXPECT_EQ(record_.motions.size(), 3U);
   EXPECT_TRUE(record_.interrupted);
+}
+
+TEST_F(MissionTest, AnArmThatIsNeverAllowedToMoveGoesThroughAllSegmentsAllTheSame) {
+  Simulation simulation = simulate();
+  Ports ports = simulation.ports();
+  StumblingArm arm(*ports.arm, std::vector<MotionEnd>(999, MotionEnd::withheld));
+  ports.arm = &arm;
+  const auto outcome = run(simulation, ports);
+  ASSERT_TRUE(outcome.has_value()) << outcome.error().message;
+  EXPECT_FALSE(record_.interrupted);
+  EXPECT_EQ(record_.segments.size(), 2U);
 }
 
 TEST_F(MissionTest, AfterAProtectiveStopAPersonIsWaitedFor) {

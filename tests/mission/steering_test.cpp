@@ -49,6 +49,31 @@ TEST(SteeringTogether, ANextSegmentDoesNotEndAnothersHoldAndIsKept) {
   EXPECT_EQ(all.ask({}).kind, Kind::go_on);
 }
 
+TEST(SteeringTogether, AnyPersonMaySayThatTheArmCanGoOn) {
+  SteeringDesk page;
+  SteeringDesk service;
+  SteeringTogether program;
+  program.add(page);
+  SteeringTogether all;
+  all.add(program);
+  all.add(service);
+  page.say({Kind::go_on, "page", "long ago"});
+  SteeringPoint stopped;
+  stopped.needs_person = "a protective stop";
+  EXPECT_EQ(all.ask(stopped).kind, Kind::wait_for_person);
+  EXPECT_EQ(all.ask({}).why, "a protective stop");
+  page.say({Kind::pause, "page", ""});
+  EXPECT_EQ(all.ask({}).kind, Kind::wait_for_person);
+  service.say({Kind::go_on, "service", ""});
+  EXPECT_EQ(all.ask({}).kind, Kind::pause);
+  page.say({Kind::go_on, "page", ""});
+  EXPECT_EQ(all.ask({}).kind, Kind::go_on);
+  SteeringTogether nobody;
+  SteeringPolicy policy("never", [](const SteeringPoint&) { return Kind::go_on; });
+  nobody.add(policy);
+  EXPECT_EQ(nobody.ask(stopped).kind, Kind::go_on);
+}
+
 TEST(SteeringTogether, TheWordThatStopsMostCounts) {
   SteeringDesk page;
   SteeringDesk service;

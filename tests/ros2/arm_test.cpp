@@ -328,7 +328,7 @@ TEST_F(Ros2ArmTest, AsksAPersonBeforeEachMotion) {
   settings.confirm = true;
   start(settings);
   confirmed_ = false;
-  EXPECT_EQ(move(a_motion()).end, MotionEnd::withheld);
+  EXPECT_EQ(move(a_motion()).end, MotionEnd::cancelled);
   EXPECT_EQ(controller_->goals(), 0);
   EXPECT_NE(asked_.find("move the arm for"), std::string::npos);
   confirmed_ = true;

@@ -119,8 +119,8 @@ TEST_F(RunTest, OnASiteWithMannersTakesThemOn) {
   request_.site = "robot";
   const auto run = Run::compose(request_, registries_, out_);
   ASSERT_TRUE(run.has_value()) << run.error().message;
-  const auto simulated = Stage::make({request_.mission, request_.overrides, request_.table_dirs},
-                                     RunRegistries::built_in());
+  request_.site = "simulation";
+  const auto simulated = Stage::make(request_, registries_);
   ASSERT_TRUE(simulated.has_value());
   const JointLimits& slow = (*run)->stage().robot().model.limits();
   const JointLimits& quick = (*simulated)->robot().model.limits();

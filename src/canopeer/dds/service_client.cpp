@@ -16,6 +16,10 @@ namespace {
 /// samples and never get there.
 constexpr std::int64_t kFirstOwnNumber = std::int64_t{1} << 40;
 
+/// Every client hears the replies to all. Until a reader is up to date they pile up in it, and one
+/// must not push another out.
+constexpr Qos kRepliesHeardQos{true, false, 1000};
+
 /// Cyclone DDS drops requests of a writer that it has not discovered yet, and acknowledges them.
 /// It discovers after the next heartbeat of discovery, which Fast DDS sends once a second.
 constexpr std::chrono::milliseconds kDiscoveredBack{1500};
@@ -42,7 +46,7 @@ class DdsClient final : public RawClient {
     if (!writer) return tl::unexpected(writer.error());
     requests_ = std::move(*writer);
     auto reader = node_.dds_reader(
-        "rr" + *base + "Reply", reply_type, kServiceQos,
+        "rr" + *base + "Reply", reply_type, kRepliesHeardQos,
         [this](Sample&& reply) { take(std::move(reply)); }, mark);
     if (!reader) return tl::unexpected(reader.error());
     const std::lock_guard lock(mutex_);  // `take` may run already

@@ -18,6 +18,7 @@ constexpr std::chrono::seconds kReaderPatience{5};
 constexpr std::size_t kMostWaiting = 1000;
 /// Replies of one server to all its clients: one must not push another out before it is taken.
 constexpr Qos kReplyQos{true, false, 1000, true};
+constexpr Qos kRequestsHeardQos{true, false, 1000};
 
 /// Where a reply goes and how it is said.
 struct Asker {
@@ -156,7 +157,7 @@ class DdsServer final : public RawServer {
     const auto opened = replies_->open("rr" + *base + "Reply", reply_type, mark);
     if (!opened) return opened;
     auto reader = node_.dds_reader(
-        "rq" + *base + "Request", request_type, kServiceQos,
+        "rq" + *base + "Request", request_type, kRequestsHeardQos,
         [this](Sample&& request) { take(std::move(request)); }, mark);
     if (!reader) return tl::unexpected(reader.error());
     requests_ = std::move(*reader);

@@ -217,9 +217,10 @@ Expected<void> Mission::State::decide() {
 /// The arm goes to the next segment's home at once: it is home before the trolley moves.
 Expected<void> Mission::State::go_home() {
   const int next = std::min(cursor.segment + 1, segments() - 1);
-  const auto arrived = segment->go_home(home_of(next));
-  if (!arrived) return tl::unexpected(arrived.error());
-  if (!*arrived) return {};  // once more, after somebody was asked
+  const auto end = segment->go_home(home_of(next));
+  if (!end) return tl::unexpected(end.error());
+  // What was withheld stays so in a dry run: on with the next segment, from where the arm is.
+  if (*end != MotionEnd::arrived && *end != MotionEnd::withheld) return {};  // once more
   segment->rest();
   const bool last = cursor.segment + 1 == segments();
   cursor.next = last || cursor.stopped ? Step::done : Step::drive;

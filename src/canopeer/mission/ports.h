@@ -36,7 +36,7 @@ enum class MotionEnd {
   cancelled,  ///< by whoever may: a person, a watchdog of ours
   preempted,  ///< somebody else moves the arm
   stopped,    ///< a protective or emergency stop: a person has to look
-  withheld    ///< nothing was to move: a dry run, or a person who said no
+  withheld    ///< a dry run: nothing was to move
 };
 /// "arrived", "refused", …
 [[nodiscard]] std::string_view motion_end_name(MotionEnd end);

@@ -43,6 +43,10 @@ class Steering {
  public:
   virtual ~Steering() = default;
   [[nodiscard]] virtual SteeringWord ask(const SteeringPoint& point) = 0;
+  /// Whether a person may say something here.
+  [[nodiscard]] virtual bool reaches_person() const { return false; }
+  /// Whether a person has said to go on since this was asked last.
+  [[nodiscard]] virtual bool person_said_go_on() { return false; }
 };
 
 }  // namespace canopeer

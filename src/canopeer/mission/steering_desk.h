@@ -16,10 +16,13 @@ class SteeringDesk : public Steering {
  public:
   void say(SteeringWord word);
   [[nodiscard]] SteeringWord ask(const SteeringPoint& point) override;
+  [[nodiscard]] bool reaches_person() const override { return true; }
+  [[nodiscard]] bool person_said_go_on() override;
 
  private:
   std::mutex mutex_;
   SteeringWord word_;  // all but next_segment
+  bool said_go_on_ = false;
   std::optional<SteeringWord> next_segment_;
 };
 
@@ -36,15 +39,19 @@ class SteeringPolicy : public Steering {
 };
 
 /// Several at once; the word that stops most counts: stop, wait_for_person, pause, next_segment,
-/// go_on. Among equals the first. A next_segment said during another's hold counts after it.
+/// go_on. Among equals the first. A next_segment said during another's hold counts after it. When
+/// the arm needs a person, any person among them may say go_on.
 class SteeringTogether : public Steering {
  public:
   /// `steering` outlives it.
   void add(Steering& steering) { all_.push_back(&steering); }
   [[nodiscard]] SteeringWord ask(const SteeringPoint& point) override;
+  [[nodiscard]] bool reaches_person() const override;
+  [[nodiscard]] bool person_said_go_on() override;
 
  private:
   std::vector<Steering*> all_;
+  std::optional<SteeringWord> waiting_;       // for a person
   std::optional<SteeringWord> next_segment_;  // said during a hold
 };
 

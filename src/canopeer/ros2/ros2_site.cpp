@@ -25,20 +25,24 @@ TrolleyState first_place(const Ros2Settings& settings, const MissionFile& file) 
   return file.mission.segments.front().trolley;
 }
 
-/// The camera, whose first frame after a push by hand says where the trolley stands.
-class PlacingCamera : public Camera {
+/// The trolley, and a frame after a push by hand, which says where it stands.
+class PlacingTrolley : public Trolley {
  public:
-  PlacingCamera(Camera& camera, Ros2Trolley& trolley) : camera_(camera), trolley_(trolley) {}
+  PlacingTrolley(Ros2Trolley& trolley, Camera& camera) : trolley_(trolley), camera_(camera) {}
   void watch_map(const VoxelMap* map) { map_ = map; }
-  Expected<RgbdFrame> capture() override {
+  TrolleyState state() const override { return trolley_.state(); }
+  Expected<void> move_to(const TrolleyState& goal) override {
+    auto moved = trolley_.move_to(goal);
+    if (!moved || !trolley_.in_doubt()) return moved;
     auto frame = camera_.capture();
-    if (frame) trolley_.check_place(map_, *frame);
-    return frame;
+    if (!frame) return fail_in("camera", frame.error());
+    trolley_.check_place(map_, *frame);
+    return {};
   }
 
  private:
-  Camera& camera_;
   Ros2Trolley& trolley_;
+  Camera& camera_;
   const VoxelMap* map_ = nullptr;
 };
 
@@ -53,7 +57,7 @@ class Ros2Site : public Site {
 
   Expected<void> open();
 
-  Ports ports() override { return {clock_.get(), arm_.get(), trolley_.get(), placing_.get()}; }
+  Ports ports() override { return {clock_.get(), arm_.get(), placing_.get(), camera_.get()}; }
   const ExactChecker& judge() const override { return judge_; }
   void watch_map(const VoxelMap* map) override { placing_->watch_map(map); }
   std::shared_ptr<Watcher> watcher() override { return output_->watcher(); }
@@ -86,7 +90,7 @@ class Ros2Site : public Site {
   std::unique_ptr<Ros2Arm> arm_;
   std::unique_ptr<Ros2Trolley> trolley_;
   std::unique_ptr<Ros2Camera> camera_;
-  std::unique_ptr<PlacingCamera> placing_;
+  std::unique_ptr<PlacingTrolley> placing_;
   std::unique_ptr<Ros2Output> output_;  // last: it asks for what is above
 };
 
@@ -151,7 +155,7 @@ Expected<void> Ros2Site::open_ports() {
   auto camera = Ros2Camera::make(*node_, settings_.camera, around);
   if (!camera) return fail_in("camera", camera.error());
   camera_ = std::move(*camera);
-  placing_ = std::make_unique<PlacingCamera>(*camera_, *trolley_);
+  placing_ = std::make_unique<PlacingTrolley>(*trolley_, *camera_);
   return {};
 }
 

@@ -42,8 +42,9 @@ ArmMover::ArmMover(const RobotModel& robot, const Ports& ports, Traveller& trave
       events_(events),
       cursor_(cursor) {}
 
-Expected<bool> ArmMover::move(const std::string& kind, const std::vector<Configuration>& waypoints,
-                              const CollisionChecker& checker) {
+Expected<MotionEnd> ArmMover::move(const std::string& kind,
+                                   const std::vector<Configuration>& waypoints,
+                                   const CollisionChecker& checker) {
   const JointPath path = without_needless_stops(waypoints, checker);
   MotionEvent motion;
   motion.kind = kind;
@@ -75,7 +76,7 @@ Expected<bool> ArmMover::move(const std::string& kind, const std::vector<Configu
   if (told) told = events_.emit(MotionEnded{std::move(motion)});
   if (told) told = mind(*outcome);
   if (!told) return tl::unexpected(told.error());
-  return arrived;
+  return outcome->end;
 }
 
 /// Remembers what did not arrive: the run goes on as long as it seems to be of use.
@@ -107,13 +108,14 @@ JointPath ArmMover::without_needless_stops(const std::vector<Configuration>& way
   return path;
 }
 
-Expected<bool> ArmMover::go_home(const Configuration& home, const CollisionChecker& checker) {
+Expected<MotionEnd> ArmMover::go_home(const Configuration& home, const CollisionChecker& checker) {
   WorkMeter work;
   const auto way = time_.timer().time(
       "way home", [&] { return traveller_.way_home(where(), home, checker, work); });
   time_.pay(work);
   if (way.size() > 1) {
-    if (auto arrived = move("home", way, checker); !arrived || !*arrived) return arrived;
+    const auto end = move("home", way, checker);
+    if (!end || *end != MotionEnd::arrived) return end;
   }
   if (robot_.endless().distance(way.back(), home) > 1e-9) {
     return fail("segment " + std::to_string(cursor_.segment) +
@@ -121,7 +123,7 @@ Expected<bool> ArmMover::go_home(const Configuration& home, const CollisionCheck
                 "blocked by plants?");
   }
   traveller_.forget_way(where());
-  return true;
+  return MotionEnd::arrived;
 }
 
 Expected<void> ArmMover::drive(const TrolleyState& goal) {

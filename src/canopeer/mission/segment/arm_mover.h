@@ -19,15 +19,17 @@ class ArmMover {
            EventHub& events, MissionCursor& cursor);
 
   [[nodiscard]] Configuration where() const { return ports_.arm->configuration(); }
+  [[nodiscard]] TrolleyState trolley() const { return ports_.trolley->state(); }
 
   /// Along the waypoints, the first of which is where the arm is. It stops where it must only:
-  /// corners are rounded as far as `checker` allows. `kind`: "view" or "home". False: it did not
-  /// arrive and stands somewhere on its way. The error: that happens again and again.
-  [[nodiscard]] Expected<bool> move(const std::string& kind,
-                                    const std::vector<Configuration>& waypoints,
-                                    const CollisionChecker& checker);
-  /// To `home`; false: it did not arrive. The error says that no way was found.
-  [[nodiscard]] Expected<bool> go_home(const Configuration& home, const CollisionChecker& checker);
+  /// corners are rounded as far as `checker` allows. `kind`: "view" or "home". Where it did not
+  /// arrive it stands somewhere on its way. The error: that happens again and again.
+  [[nodiscard]] Expected<MotionEnd> move(const std::string& kind,
+                                         const std::vector<Configuration>& waypoints,
+                                         const CollisionChecker& checker);
+  /// To `home`. The error says that no way was found.
+  [[nodiscard]] Expected<MotionEnd> go_home(const Configuration& home,
+                                            const CollisionChecker& checker);
   /// The trolley, with the arm at home; nothing happens when it is there.
   [[nodiscard]] Expected<void> drive(const TrolleyState& goal);
 

@@ -9,11 +9,13 @@ namespace {
 constexpr double kWaitStep = 0.05;  // s between two questions to a planner that waits
 constexpr double kAtHome = 0.1;     // rad, Σ|Δq|: more than an arm misses its goal by
 
-SegmentFrame segment_frame(const RobotModel& robot, const SegmentPlan& plan, int index) {
+/// `trolley`: where it really stands, which may be beside the plan where a person pushes it.
+SegmentFrame segment_frame(const RobotModel& robot, const SegmentPlan& plan, int index,
+                           const TrolleyState& trolley) {
   SegmentFrame frame;
   frame.index = index;
-  frame.trolley = plan.trolley;
-  frame.T_world_base = robot.T_world_base(plan.trolley);
+  frame.trolley = trolley;
+  frame.T_world_base = robot.T_world_base(trolley);
   frame.workspace_base = robot.workspace(plan.side);
   frame.sampling_region_world = transformed(robot.sampling_region(plan.side), frame.T_world_base);
   frame.home = robot.home("side_" + std::to_string(plan.side));
@@ -26,7 +28,8 @@ SegmentRunner::SegmentRunner(const SegmentTools& tools, int index)
     : tools_(tools),
       index_(index),
       frame_(segment_frame(tools.robot.model,
-                           tools.options.segments[static_cast<std::size_t>(index)], index)),
+                           tools.options.segments[static_cast<std::size_t>(index)], index,
+                           tools.arm.trolley())),
       checker_(tools.robot.model, frame_.trolley, tools.options.collision) {
   const Box& known_free = tools_.robot.model.setup().known_free;
   tools_.time.background().alone([&](Planner&) {
@@ -105,7 +108,7 @@ Expected<void> SegmentRunner::end() {
   return tools_.events.emit(SegmentEnded{index_, std::min(tools_.time.now_s(), latest_s)});
 }
 
-Expected<bool> SegmentRunner::go_home(const Configuration& home) {
+Expected<MotionEnd> SegmentRunner::go_home(const Configuration& home) {
   return tools_.arm.go_home(home, checker_);
 }
 
@@ -197,9 +200,9 @@ Expected<void> SegmentRunner::take(const ViewMotion& motion) {
         tools_.time.background().beside([](Planner& planner) { return planner.sketch(); }));
   }
   if (auto ok = tools_.events.emit(std::move(planned)); !ok) return ok;
-  const auto arrived = tools_.arm.move("view", motion.waypoints, checker_);
-  if (!arrived) return tl::unexpected(arrived.error());
-  if (*arrived) return observe(motion.kind, motion.predicted_gain);
+  const auto end = tools_.arm.move("view", motion.waypoints, checker_);
+  if (!end) return tl::unexpected(end.error());
+  if (*end == MotionEnd::arrived) return observe(motion.kind, motion.predicted_gain);
   // Where it stands is a place as good as another, but twice in a row asks for another way.
   if (tools_.cursor.missed_motions > 1) return recover();
   return observe(motion.kind, std::nullopt);
@@ -212,7 +215,7 @@ Expected<void> SegmentRunner::recover() {
     tools_.time.pass(1.0);
     return {};
   }
-  if (auto arrived = go_home(frame_.home); !arrived) return tl::unexpected(arrived.error());
+  if (auto end = go_home(frame_.home); !end) return tl::unexpected(end.error());
   return observe(TargetKind::none, std::nullopt);
 }
 

@@ -45,8 +45,7 @@ class SegmentRunner {
   /// A motion under way when the time was up has been finished; its frame belongs to the
   /// transition.
   [[nodiscard]] Expected<void> end();
-  /// False: the arm did not arrive.
-  [[nodiscard]] Expected<bool> go_home(const Configuration& home);
+  [[nodiscard]] Expected<MotionEnd> go_home(const Configuration& home);
   /// The planner's background work stops.
   void rest() { tools_.time.background().rest(); }
 

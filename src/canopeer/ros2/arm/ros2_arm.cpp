@@ -138,7 +138,7 @@ Expected<double> Ros2Arm::start(const JointPath& path) {
   if (dry_run_) return hold_back(MotionEnd::withheld, "a dry run", motion.duration_s());
   if (parts_.person.may_move) {
     const std::string what = "move the arm for " + figure(motion.duration_s(), 1) + " s";
-    if (!parts_.person.may_move(what)) return hold_back(MotionEnd::withheld, "not confirmed");
+    if (!parts_.person.may_move(what)) return hold_back(MotionEnd::cancelled, "a person said no");
     may = may_begin(path);  // the answer may have taken minutes
     if (!may) return tl::unexpected(may.error());
     if (!*may) return 0.0;

@@ -55,9 +55,13 @@ class ManualDriver : public TrolleyDriver {
     return {};
   }
 
-  bool take_doubt() override {
+  bool in_doubt() const override {
     const std::lock_guard lock(mutex_);
-    return std::exchange(doubt_, false);
+    return doubt_;
+  }
+  void settle() override {
+    const std::lock_guard lock(mutex_);
+    doubt_ = false;
   }
 
  private:

@@ -61,7 +61,7 @@ Expected<void> Ros2Trolley::move_to(const TrolleyState& goal) {
   if (auto ok = check_arm(); !ok) return ok;
   if (parts_.person.may_move && settings_.kind != Ros2TrolleySettings::Kind::manual &&
       !parts_.person.may_move("drive the trolley to " + in_words(goal, parts_.robot))) {
-    return {};
+    return fail("it must not move, a person said; the next segment is elsewhere");
   }
   auto driven = driver_->drive(goal);
   if (on_moved_) on_moved_();
@@ -69,7 +69,9 @@ Expected<void> Ros2Trolley::move_to(const TrolleyState& goal) {
 }
 
 void Ros2Trolley::check_place(const VoxelMap* map, RgbdFrame& frame) {
-  if (!driver_->take_doubt() || map == nullptr) return;
+  if (!driver_->in_doubt()) return;
+  driver_->settle();
+  if (map == nullptr) return;
   const TrolleyState believed = state();
   const auto moved = [&](double shift_m) {
     TrolleyState there = believed;

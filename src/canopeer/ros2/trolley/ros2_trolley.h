@@ -28,6 +28,8 @@ class Ros2Trolley : public Trolley {
   /// What it needs and does not find, for people.
   [[nodiscard]] std::vector<std::string> missing() const { return driver_->missing(); }
 
+  /// After a push by hand, until check_place().
+  [[nodiscard]] bool in_doubt() const { return driver_->in_doubt(); }
   /// The first frame after a push by hand: held against the map, its pose and the trolley's place
   /// put right where the map is clear, and people told. Other frames are left alone.
   void check_place(const VoxelMap* map, RgbdFrame& frame);

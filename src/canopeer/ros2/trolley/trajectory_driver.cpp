@@ -77,6 +77,7 @@ class TrajectoryDriver : public TrolleyDriver {
 Expected<void> TrajectoryDriver::drive(const TrolleyState& goal) {
   if (axes_.empty()) return fail("the robot's URDF has no axes for it");
   if (auto ok = alive(); !ok) return ok;
+  const bool stop_was_asked = parts_.person.stop();
   const Configuration from = positions(parts_.sense.now());
   const PathMotion motion(std::vector<Configuration>{from, positions(goal)}, limits_);
   const auto accepted =
@@ -84,7 +85,6 @@ Expected<void> TrajectoryDriver::drive(const TrolleyState& goal) {
   if (!accepted) return fail_in("lost " + client_->action(), accepted.error());
   if (!*accepted) return fail(client_->action() + " refuses to drive; its log says why");
 
-  const bool stop_was_asked = parts_.person.stop();
   GoalWatch watch;
   watch.alive = [this] { return alive(); };
   watch.cancel = [&]() -> std::optional<std::string> {

@@ -22,8 +22,9 @@ class TrolleyDriver {
   [[nodiscard]] virtual Expected<void> drive(const TrolleyState& goal) = 0;
   /// Whether it is at `goal` already.
   [[nodiscard]] virtual bool at(const TrolleyState& goal) const = 0;
-  /// Once after each drive: whether the map should say where it stands.
-  [[nodiscard]] virtual bool take_doubt() { return false; }
+  /// Whether the map should say where it stands, and the end of that doubt.
+  [[nodiscard]] virtual bool in_doubt() const { return false; }
+  virtual void settle() {}
 };
 
 /// All outlive the driver.
