@@ -152,6 +152,7 @@ export class Timeline {
         break;
       case "trolley":
         this.tracks.addTrolley(message);
+        this.tell(t, "info", `The trolley drives to ${message.travel.toFixed(2)} m, the lift to ${message.lift.toFixed(2)} m.`);
         break;
       case "view":
         this.views.push(message);
@@ -181,8 +182,14 @@ export class Timeline {
         if (message.plantContact) this.tell(t, "notice", "A motion touched a plant.");
         break;
       case "fruits":
-        for (const fruit of message.changed) this.fruits.set(step, fruit.id, fruit);
-        for (const id of message.gone) this.fruits.set(step, id, undefined);
+        for (const fruit of message.changed) {
+          if (!this.fruits.last(fruit.id)) this.tell(t, "info", `Fruit ${fruit.id} found in view ${message.view}.`);
+          this.fruits.set(step, fruit.id, fruit);
+        }
+        for (const id of message.gone) {
+          this.tell(t, "info", `Fruit ${id} is none, or part of another.`);
+          this.fruits.set(step, id, undefined);
+        }
         this.fruitsOfView.set(message.view, message.changed);
         break;
       case "log":
