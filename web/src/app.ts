@@ -110,6 +110,16 @@ export class App implements Actions {
     this.wake();
   }
 
+  lookAtSelection(): void {
+    if (this.selection?.is === "fruit") {
+      const fruit = this.timeline.fruits.at(this.selection.id, this.moment().step);
+      if (fruit) this.scene?.lookAt(fruit.centre);
+    } else if (this.selection?.is === "view") {
+      const T = this.timeline.view(this.selection.view)?.T_world_camera;
+      if (T) this.scene?.lookAt([T[3], T[7], T[11]]);
+    }
+  }
+
   enlarge(view: number): void {
     this.panels.pictures.show(this.timeline, view);
   }
@@ -265,6 +275,7 @@ export class App implements Actions {
       r: () => this.look("robot"),
       w: () => this.look("row"),
       c: () => this.look("camera"),
+      f: () => this.lookAtSelection(),
       d: () => this.panels.camera.toggleOverlay(),
       t: () => this.theme.toggle(),
       "?": () => this.panels.help.toggle(),

@@ -20,7 +20,11 @@ export function listenToKeys(calls: KeyCalls): void {
   });
 
   // After a click, keys are the page's again; who moves by keys keeps the focus.
-  document.addEventListener("pointerup", () => setTimeout(releaseFocus));
+  document.addEventListener("click", (event) => {
+    if (event.detail === 0) return; // by a key
+    releaseFocus();
+    setTimeout(releaseFocus); // labels hand it on to their switch
+  });
 }
 
 function releaseFocus(): void {

@@ -20,6 +20,8 @@ export interface Actions {
   selectView(view: number): void;
   selectFruit(id: number): void;
   clearSelection(): void;
+  /** Looks at what was picked, from nearby. */
+  lookAtSelection(): void;
   /** Shows a picture large. */
   enlarge(view: number): void;
 }

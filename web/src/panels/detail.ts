@@ -59,11 +59,15 @@ export class Detail {
     const changed = timeline.fruitsOfView.get(number) ?? [];
     fill(
       this.body,
-      el("div", { class: "buttons" }, go(-1, "Earlier"), go(1, "Later"), el("button", { class: "plain", on: { click: () => this.actions.enlarge(number) } }, "Large pictures")),
+      el("div", { class: "buttons" }, go(-1, "Earlier"), go(1, "Later"), this.lookButton(), el("button", { class: "plain", on: { click: () => this.actions.enlarge(number) } }, "Large pictures")),
       viewFigures(view),
       el("h3", {}, changed.length > 0 ? "Fruits found or changed" : "No fruit changed"),
       el("div", { class: "chips" }, ...changed.map((f) => this.fruitChip(f))),
     );
+  }
+
+  private lookButton(): HTMLElement {
+    return el("button", { class: "plain", title: "From nearby (F)", on: { click: () => this.actions.lookAtSelection() } }, "Look at it");
   }
 
   private fruitChip(fruit: Fruit): HTMLElement {
@@ -80,7 +84,7 @@ export class Detail {
     const old = this.body.querySelector(".thumbs");
     const thumbs = old instanceof HTMLElement && old.dataset.fruit === String(id) ? old : el("div", { class: "thumbs", "data-fruit": id });
     const heading = el("h3", {}, "Pictures that saw it");
-    fill(this.body, el("div", { class: "fruit-top" }, outlines(fruit), fruitFigures(fruit)), heading, thumbs);
+    fill(this.body, el("div", { class: "buttons" }, this.lookButton()), outlines(fruit), fruitFigures(fruit), heading, thumbs);
     void this.findPictures(timeline, fruit, t, thumbs, heading);
   }
 

@@ -14,6 +14,7 @@ const kKeys: [string, string][] = [
   ["L", "stay with the newest"],
   ["1 … 9 0", "layers"],
   ["R W C", "look at the robot, the whole row, over the camera’s shoulder"],
+  ["F", "look at what was picked"],
   ["D", "detection over the picture"],
   ["T", "light, dark"],
   ["Esc", "leave what was picked"],

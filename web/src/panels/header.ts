@@ -13,6 +13,8 @@ export class Header {
   private readonly status = el("span", { class: "status", role: "status" });
   private readonly figures: Record<"time" | "segment" | "view" | "fruits" | "voxels", HTMLElement>;
 
+  private readonly report = el("a", { class: "plain", href: `report.html${location.search}`, hidden: true }, "Report");
+
   constructor(actions: { theme(): void; help(): void }) {
     const figure = (name: string, wide = "") => {
       const value = el("dd");
@@ -38,6 +40,7 @@ export class Header {
       el(
         "div",
         { class: "tools" },
+        this.report,
         el("button", { class: "round", label: "Light or dark", title: "Light or dark (T)", on: { click: actions.theme } }, icon("theme")),
         el("button", { class: "round", label: "Help: keys", title: "Keys (?)", on: { click: actions.help } }, "?"),
       ),
@@ -57,6 +60,7 @@ export class Header {
       setText(this.about, parts.filter(Boolean).join(" · "));
       document.title = `${hello.mission} – Canopeer`;
     }
+    this.report.hidden = timeline.end === null;
     setText(this.figures.time, clock(t));
     const total = Math.max(hello?.segments ?? 0, timeline.segments.length);
     setText(this.figures.segment, segment ? `${segment.segment + 1}/${total} ${segment.name}` : "–");

@@ -2,7 +2,7 @@ import * as THREE from "three";
 import { type Configuration, linkPoses } from "../data/kinematics.ts";
 import type { Robot, Shape } from "../data/messages.ts";
 import type { Palette } from "../theme.ts";
-import { dispose, matrixOf } from "./matrices.ts";
+import { matrixOf } from "./matrices.ts";
 
 /** The robot's links as they stand. */
 export class RobotModel {
@@ -47,11 +47,6 @@ export class RobotModel {
     return (boxes[0] ?? new THREE.Box3()).getCenter(new THREE.Vector3()).toArray();
   }
 
-  clear(): void {
-    for (const link of this.links) dispose(link);
-    this.links = [];
-    this.robot = null;
-  }
 }
 
 /** Whether an arm joint is on the way to this link. */

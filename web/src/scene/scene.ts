@@ -7,6 +7,9 @@ import { SceneProbe } from "./probe.ts";
 import { Stage } from "./stage.ts";
 import { World } from "./world.ts";
 
+/** How near the eye goes to what was picked. */
+const kNearby_m = 0.8;
+
 /** The 3D picture as the page uses it. */
 export class Scene {
   private readonly world: World;
@@ -39,6 +42,12 @@ export class Scene {
   choose(selection: Selection, view: View | null): void {
     this.world.chooseView(view);
     this.world.chooseFruit(selection?.is === "fruit" ? selection.id : -1);
+  }
+
+  /** From nearby. */
+  lookAt(point: readonly [number, number, number]): void {
+    this.world.setFollow(false);
+    this.world.lookAt(point, kNearby_m);
   }
 
   look(where: "robot" | "row" | "camera", t: number): void {
