@@ -40,8 +40,8 @@ Vec3 turn_between(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
   return half_turn.angle() * half_turn.axis();
 }
 
-/// Δq = Jᵀ (J Jᵀ + λ)⁻¹ e of the first n rows of J, by Cholesky's A = L Lᵀ. Plain loops: of Eigen's
-/// products and solvers for these sizes the compiler makes the same in five times the time.
+/// Δq = Jᵀ (J Jᵀ + λ)⁻¹ e of the first n rows of J, by Cholesky's A = L Lᵀ. Plain loops: with
+/// Eigen's products and solvers of these sizes this file takes the compiler twice as long.
 template <std::size_t n>
 void damped_step(const RobotModel::Jacobian& J, const std::array<double, n>& error, double damping,
                  Configuration& step) {
