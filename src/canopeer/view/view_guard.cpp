@@ -56,6 +56,7 @@ bool ViewGuard::knows_host(std::string_view given) const {
     name = host.substr(0, colon);
     port = host.substr(colon + 1);
   }
+  if (port.empty() || port.find_first_not_of("0123456789") != std::string_view::npos) return false;
   // A tunnel from another machine may end at another port there.
   if (name == "localhost" || name == "[::1]" || name == "127.0.0.1") return true;
   if (port != port_) return false;

@@ -8,7 +8,7 @@
 #include <boost/beast.hpp>
 #include <chrono>
 #include <deque>
-#include <fstream>
+#include <future>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <random>
@@ -48,7 +48,6 @@ struct Shared {
   ViewControls controls;
   ViewGuard guard;
   std::atomic<int> readers{0};
-  std::atomic<int> behind{0};  // readers who have not got all that is there
   int connections = 0;
 };
 
@@ -58,10 +57,7 @@ class Reader : public std::enable_shared_from_this<Reader> {
   Reader(beast::tcp_stream&& stream, Shared& shared) : socket_(std::move(stream)), shared_(shared) {
     ++shared_.readers;
   }
-  ~Reader() {
-    --shared_.readers;
-    if (behind_) --shared_.behind;
-  }
+  ~Reader() { --shared_.readers; }
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
@@ -89,9 +85,7 @@ class Reader : public std::enable_shared_from_this<Reader> {
   /// Sends what is there, one frame after the other; called when there may be more.
   void pump() {
     if (sending_ || !socket_.is_open()) return;
-    const bool more = !waiting_.empty() || next_piece();
-    if (more != std::exchange(behind_, more)) shared_.behind += more ? 1 : -1;
-    if (!more) return;
+    if (waiting_.empty() && !next_piece()) return;
     sending_ = true;
     socket_.async_write(asio::buffer(waiting_.front()),
                         [self = shared_from_this()](beast::error_code error, std::size_t) {
@@ -100,6 +94,12 @@ class Reader : public std::enable_shared_from_this<Reader> {
                           self->waiting_.pop_front();
                           self->pump();
                         });
+  }
+
+  /// Of what is there now.
+  [[nodiscard]] bool has_all() const {
+    if (!beast::get_lowest_layer(socket_).socket().is_open()) return true;
+    return !sending_ && waiting_.empty() && piece_ >= shared_.log->pieces();
   }
 
   void close() {
@@ -192,7 +192,6 @@ class Reader : public std::enable_shared_from_this<Reader> {
   bool may_steer_ = false;
   bool sending_ = false;
   bool caught_up_ = false;
-  bool behind_ = false;
   std::size_t piece_ = 0;  // the next one
   std::int64_t left_out_ = 0;
   std::deque<std::string> waiting_;
@@ -342,6 +341,17 @@ struct ViewServer::State {
       }
     }
   }
+  /// Asked from another thread.
+  bool all_have_all() {
+    std::promise<bool> answer;
+    asio::post(context, [this, &answer] {
+      answer.set_value(std::all_of(all_readers.begin(), all_readers.end(), [](const auto& one) {
+        const auto reader = one.lock();
+        return !reader || reader->has_all();
+      }));
+    });
+    return answer.get_future().get();
+  }
   void pump_all() {
     for (const auto& one : all_readers) {
       if (const auto reader = one.lock()) reader->pump();
@@ -382,7 +392,7 @@ Expected<std::unique_ptr<ViewServer>> ViewServer::start(const ViewServerOptions&
 ViewServer::~ViewServer() {
   state_->shared->log->on_append({});
   // Who looks on gets the end of the run too, if it takes no longer than that.
-  for (int i = 0; i < 50 && state_->shared->behind > 0; ++i)
+  for (int i = 0; i < 50 && !state_->all_have_all(); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   state_->context.stop();
   state_->thread.join();
