@@ -22,7 +22,7 @@ long long at_time(const Events& events, double until_s, Count count) {
 
 std::string gain(long long before, long long after) {
   const long long change = after - before;
-  return (change > 0 ? "+" : "") + count_text(change);
+  return fmt::format("{}{}", change > 0 ? "+" : "", count_text(change));
 }
 
 struct Motions {
