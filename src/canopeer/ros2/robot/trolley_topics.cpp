@@ -23,13 +23,12 @@ Expected<std::unique_ptr<TrolleyTopics>> TrolleyTopics::make(Node& node,
                                                              const Ros2TrolleySettings& names,
                                                              const RobotModel& robot,
                                                              TrajectoryServer& trolley) {
-  std::unique_ptr<TrolleyTopics> topics(new TrolleyTopics(names, robot, trolley));
+  std::unique_ptr<TrolleyTopics> topics(new TrolleyTopics(robot, trolley));
   if (auto ok = topics->join(node, names); !ok) return tl::unexpected(ok.error());
   return topics;
 }
 
-TrolleyTopics::TrolleyTopics(const Ros2TrolleySettings& /*names*/, const RobotModel& robot,
-                             TrajectoryServer& trolley)
+TrolleyTopics::TrolleyTopics(const RobotModel& robot, TrajectoryServer& trolley)
     : robot_(robot),
       axes_(robot),
       trolley_(trolley),

@@ -23,8 +23,7 @@ class TrolleyTopics {
   void say();
 
  private:
-  TrolleyTopics(const Ros2TrolleySettings& names, const RobotModel& robot,
-                TrajectoryServer& trolley);
+  TrolleyTopics(const RobotModel& robot, TrajectoryServer& trolley);
   [[nodiscard]] Expected<void> join(Node& node, const Ros2TrolleySettings& names);
   void go_to(const TrolleyState& goal);
 
