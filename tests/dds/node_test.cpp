@@ -123,6 +123,23 @@ TEST(Node, CountsMessagesThatAreNone) {
   EXPECT_EQ(hearer->malformed(), 3);
 }
 
+TEST(Node, DropsWhatIsTooLongForItsType) {
+  const auto talker = make_node("talker");
+  const auto hearer = make_node("hearer");
+  const auto publisher = must(talker->advertise<sensor_msgs::JointState>("/joints"));
+  std::atomic<int> heard{0};
+  const auto subscription = must(hearer->subscribe<sensor_msgs::JointState>(
+      "/joints", {}, [&](sensor_msgs::JointState&&, const Guid&) { ++heard; }));
+  ASSERT_TRUE(eventually([&] { return publisher.readers() == 1; }));
+  sensor_msgs::JointState state;
+  state.name = {std::string(sensor_msgs::JointState::kMostOctets, 'x')};
+  publisher.publish(state);
+  state.name = {"elbow"};
+  publisher.publish(state);
+  ASSERT_TRUE(eventually([&] { return heard == 1; }));
+  EXPECT_EQ(hearer->malformed(), 1);
+}
+
 TEST(Node, DropsWhatIsTooLongAndHearsTheNext) {
   const auto talker = make_node("talker");
   NodeOptions careful = options_of("careful");

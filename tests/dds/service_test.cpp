@@ -191,6 +191,19 @@ TEST(ServiceDialect, AHeadGoesOnAndComesOff) {
   EXPECT_FALSE(split_head({}).has_value());
 }
 
+TEST(ServiceDialect, OfAllServersOrAnErrorThatSaysWhatToDo) {
+  EXPECT_EQ(must(dialect_of({Rmw::fastrtps})), Rmw::fastrtps);
+  EXPECT_EQ(must(dialect_of({Rmw::cyclonedds})), Rmw::cyclonedds);
+  EXPECT_EQ(dialect_of({}).error().message, "no server is there");
+  EXPECT_NE(dialect_of({Rmw::fastrtps, Rmw::cyclonedds}).error().message.find("stop one of them"),
+            std::string::npos);
+  for (const std::set<Rmw>& servers :
+       {std::set{Rmw::unknown}, std::set{Rmw::unknown, Rmw::fastrtps}}) {
+    EXPECT_NE(dialect_of(servers).error().message.find("RMW_IMPLEMENTATION=rmw_fastrtps_cpp"),
+              std::string::npos);
+  }
+}
+
 TEST(ServiceDialect, MarksAreFoundInUserData) {
   const std::string mark = new_pair_mark("clientid");
   EXPECT_EQ(user_data_value("a=b;" + mark + "c=d;", "clientid"), mark.substr(9, mark.size() - 10));

@@ -141,6 +141,66 @@ TEST_F(CameraFeedTest, FramesFromBeforeSomethingStoppedDoNotCount) {
   EXPECT_TRUE(feed_->capture());
 }
 
+TEST_F(CameraFeedTest, NoFrameIsGivenTwiceUnlessTheClockWasSetBack) {
+  make();
+  for (Stamp t = 0; t <= 1000; t += 10) put_joints(t, home_);
+  put_frame(700);
+  ASSERT_TRUE(feed_->capture());
+  EXPECT_NE(error_of_capture().find("nothing came on /depth since the last frame"),
+            std::string::npos)
+      << error_of_capture();
+  put_frame(733);
+  const auto next = feed_->capture();
+  ASSERT_TRUE(next) << next.error().message;
+  EXPECT_EQ(next->stamp, kStart + 733 * kMs);
+  for (Stamp t = -60000; t <= -59000; t += 10) put_joints(t, home_);
+  put_frame(-59300);
+  EXPECT_TRUE(feed_->capture());
+}
+
+/// A wall seen by a pinhole of 12 x 10 pixels with focal length 50.
+sensor_msgs::PointCloud2 wall(const std_msgs::Header& header) {
+  sensor_msgs::PointCloud2 cloud;
+  cloud.header = header;
+  cloud.width = 12;
+  cloud.height = 10;
+  const auto real = sensor_msgs::PointField::FLOAT32;
+  cloud.fields = {{"x", 0, real, 1}, {"y", 4, real, 1}, {"z", 8, real, 1}, {"rgb", 12, real, 1}};
+  cloud.point_step = 16;
+  cloud.row_step = 16 * cloud.width;
+  for (int v = 0; v < 10; ++v) {
+    for (int u = 0; u < 12; ++u) {
+      const float z = 1.0F + 0.01F * static_cast<float>(u);
+      const float point[4] = {(static_cast<float>(u) - 5.5F) / 50.0F * z,
+                              (static_cast<float>(v) - 4.5F) / 50.0F * z, z, 0.0F};
+      std::uint8_t octets[sizeof point];
+      std::memcpy(octets, point, sizeof point);
+      cloud.data.insert(cloud.data.end(), octets, octets + sizeof point);
+    }
+  }
+  return cloud;
+}
+
+TEST_F(CameraFeedTest, ACloudIsNotMeasuredByTheInfoOfAnotherCamera) {
+  make({FramePart::points});
+  for (Stamp t = 0; t <= 1000; t += 10) put_joints(t, home_);
+  feed_->intake().add(FramePart::points, wall(header(700)), kStart);
+  const auto frame = feed_->capture();
+  ASSERT_TRUE(frame) << frame.error().message;
+  EXPECT_NEAR(frame->frame.intrinsics.fx, 50.0, 1e-2);
+}
+
+TEST(FrameMessages, TextsAndFieldsTakeMemoryToo) {
+  sensor_msgs::PointCloud2 cloud;
+  cloud.header.frame_id = std::string(1000, 'x');
+  cloud.fields.resize(100);
+  EXPECT_GE(octets_of(PartMessage(cloud)), 1000 + 100 * sizeof(sensor_msgs::PointField));
+  sensor_msgs::Image image;
+  image.encoding = std::string(1000, 'x');
+  image.data.resize(10);
+  EXPECT_EQ(octets_of(PartMessage(image)), 1010u);
+}
+
 TEST_F(CameraFeedTest, FramesFromWhileItMovesAreAtThePosesInBetween) {
   settings_.time_offset_s = -0.05;  // the camera's clock is ahead
   make();

@@ -159,5 +159,12 @@ TEST_F(Ros2CameraTest, SaysWhatIsWrongWithPublishers) {
   EXPECT_NE(said.find("/labels (nobody publishes it)"), std::string::npos) << said;
 }
 
+TEST_F(Ros2CameraTest, WithACloudNobodyAsksForTheInfoOfTheColourCamera) {
+  settings_.points = "/cam/points";
+  make();
+  ASSERT_TRUE(eventually([&] { return driver_->subscribers_of("/cam/points").size() == 1; }));
+  EXPECT_TRUE(driver_->subscribers_of("/cam/info").empty());
+}
+
 }  // namespace
 }  // namespace canopeer::ros

@@ -95,6 +95,38 @@ TEST(Ros2Check, JointStatesThatAreSilentSlowOrWithoutStamps) {
   EXPECT_SAID(judged(slow), "have no stamp");
 }
 
+sensor_msgs::JointState elbow_said(double position) {
+  sensor_msgs::JointState state;
+  state.name = {"elbow_joint", std::string(257, 'x')};
+  state.position = {position, 0.0};
+  return state;
+}
+
+TEST(Ros2Check, PublishersThatContradictEachOther) {
+  JointEar ear([] { return Stamp(1); });
+  Guid driver{}, other{};
+  driver[0] = 1;
+  other[0] = 2;
+  const auto judge = [&] {
+    Findings findings;
+    judge_speakers(checked_robot(), {}, {}, ear.heard(),
+                   {{participant_of(driver), {"/driver"}}, {participant_of(other), {"/dreamer"}}},
+                   findings);
+    return findings;
+  };
+  ear.take("/joint_states", elbow_said(1.0), driver);
+  ear.take("/joint_states", elbow_said(1.01), other);
+  EXPECT_TRUE(judge().all().empty());
+  EXPECT_EQ(ear.heard().positions.size(), 1u) << "names without end are left out";
+  ear.take("/joint_states", elbow_said(-1.5), other);
+  EXPECT_SAID(judge(),
+              "wrong joint states: elbow_joint is at -1.500 by /dreamer and at 1.000 by /driver: "
+              "stop one of them");
+  ear.count_from_now();
+  ear.take("/joint_states", elbow_said(1.0), driver);
+  EXPECT_TRUE(judge().all().empty());
+}
+
 ListenedTopic depth_topic() {
   return {"depth", "ros2.camera.depth", "/depth", "sensor_msgs/msg/Image", false, 90, "16UC1",
           614400};
@@ -241,6 +273,24 @@ TEST(Ros2Check, PeersAndTheirNodes) {
   judge_peers({peer}, {{peer.id, {"/ur_driver", "/cell/camera"}}}, ours, findings);
   EXPECT_SAID(findings, "ok peer: Eclipse Cyclone DDS (rmw_cyclonedds): /cell/camera /ur_driver");
   EXPECT_FALSE(findings.any_wrong());
+}
+
+TEST(Ros2Check, AnActionServedByAMiddlewareThatIsNotUnderstood) {
+  Peer peer;
+  peer.id[0] = 7;
+  peer.vendor = {0x01, 0x01};
+  Endpoint server;
+  server.guid[0] = 7;
+  server.topic = "rq/arm/follow/_action/send_goalRequest";
+  Findings findings;
+  judge_action_servers("/arm/other", {peer}, {server}, findings);
+  EXPECT_TRUE(findings.all().empty());
+  judge_action_servers("/arm/follow", {peer}, {server}, findings);
+  EXPECT_SAID(findings, "wrong arm: /arm/follow is served by a peer on 01.01, whose actions");
+  Findings understood;
+  peer.vendor = {0x01, 0x10};
+  judge_action_servers("/arm/follow", {peer}, {server}, understood);
+  EXPECT_TRUE(understood.all().empty());
 }
 
 template <std::size_t N>

@@ -301,6 +301,17 @@ TEST(RosImages, AnOrganisedCloudSaysItsCameraByItself) {
   }
 }
 
+TEST(RosImages, PointsFarBeyondAnyCamerasReachAreNone) {
+  const CameraIntrinsics k = CameraIntrinsics::from_fov(40, 30, 1.2);
+  auto cloud = cloud_of(k, true, false);
+  const double far = 1e300;
+  std::memcpy(&cloud.data[5 * cloud.row_step + 6 * cloud.point_step + cloud.fields[2].offset], &far,
+              sizeof far);
+  const auto images = images_of(cloud);
+  ASSERT_TRUE(images) << images.error().message;
+  EXPECT_EQ(images->depth.at(6, 5), 0.0F);
+}
+
 TEST(RosImages, CloudsThatAreNoImagesAreRefused) {
   const CameraIntrinsics k = CameraIntrinsics::from_fov(40, 30, 1.2);
   auto flat = cloud_of(k, false, false);
@@ -360,6 +371,18 @@ TEST(CameraInfo, WhatCannotBeUsedIsSaid) {
   info.k = {};
   EXPECT_NE(camera_model(info, 640, 480, true).error().message.find("calibrat"), std::string::npos);
   info.k[0] = NAN;
+  EXPECT_FALSE(camera_model(info, 640, 480, true));
+}
+
+TEST(CameraInfo, SizesThatNoImageHasAreSaid) {
+  auto info = info_of(0xFFFFFFFF, 0xFFFFFFFF);
+  EXPECT_NE(camera_model(info, 640, 480, true).error().message.find("the camera info: an image of"),
+            std::string::npos);
+  info = info_of(640, 480);
+  info.roi.width = info.roi.height = 0xFFFFFFFF;
+  EXPECT_FALSE(camera_model(info, 640, 480, true));
+  info = info_of(640, 480);
+  info.binning_x = info.binning_y = 1000;
   EXPECT_FALSE(camera_model(info, 640, 480, true));
 }
 

@@ -83,7 +83,8 @@ TEST(TfBuffer, WhatMakesNoSenseIsPassedOver) {
   tf.add(bad, false);
   tf.add(step("base", "base", 0.0, turned(1, 0)), false);
   tf.add(step("", "arm", 0.0, turned(1, 0)), false);
-  EXPECT_EQ(tf.malformed(), 4);
+  tf.add(step("base", std::string(257, 'x'), 0.0, turned(1, 0)), false);
+  EXPECT_EQ(tf.malformed(), 5);
   EXPECT_TRUE(tf.frames().empty());
   tf.add(step("a", "b", 0.0, turned(1, 0)), false);  // a circle ends
   tf.add(step("b", "a", 0.0, turned(1, 0)), false);
@@ -102,6 +103,28 @@ TEST(TfBuffer, ForgetsWhatIsOldAndBeginsAnewWithTheClock) {
   EXPECT_NEAR(tf.newest("base", "arm")->translation().x(), 7.0, 1e-9);
   tf.add(step("world", "arm", 1.0, turned(8, 0)), false);  // hangs elsewhere now
   EXPECT_FALSE(tf.newest("base", "arm"));
+}
+
+TEST(TfBuffer, SaysNothingWithinALongGap) {
+  TfBuffer tf;
+  for (const double time : {0.0, 0.5, 1.1})
+    tf.add(step("base", "arm", time, turned(time, 0)), false);
+  EXPECT_TRUE(tf.lookup("base", "arm", at(0.25)));
+  EXPECT_TRUE(tf.lookup("base", "arm", at(1.1)));
+  const auto within = tf.lookup("base", "arm", at(0.8));
+  ASSERT_FALSE(within);
+  EXPECT_NE(within.error().message.find("nothing of 'arm' in 'base' for 0.600 s"),
+            std::string::npos)
+      << within.error().message;
+}
+
+TEST(TfBuffer, TheLongestLosesItsOldestWhenAllHoldTooMuch) {
+  TfBuffer tf(1e6, 2000);
+  tf.add(step("base", "slow", 0.0, turned(1, 0)), false);
+  for (int i = 0; i < 3000; ++i) tf.add(step("base", "fast", 0.1 * i, turned(i, 0)), false);
+  EXPECT_TRUE(tf.lookup("base", "slow", at(0.0)));
+  EXPECT_FALSE(tf.lookup("base", "fast", at(100.0)));
+  EXPECT_TRUE(tf.lookup("base", "fast", at(100.2)));  // 1999 samples up to 299.9 s
 }
 
 }  // namespace

@@ -37,6 +37,11 @@ void replace_all(std::string& text, const std::string& what, const std::string& 
 
 }  // namespace
 
+bool is_short_name(const std::string& name) {
+  constexpr std::size_t kLongest = 256;
+  return !name.empty() && name.size() <= kLongest;
+}
+
 Expected<void> check_node_name(const std::string& name) {
   if (is_token(name)) return {};
   return fail("node name '" + name + "': letters, digits and '_' only, no digit in front");

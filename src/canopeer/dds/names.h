@@ -15,6 +15,9 @@ namespace canopeer::ros {
 /// "/", or "/a/b".
 [[nodiscard]] Expected<void> check_namespace(const std::string& ns);
 
+/// Whether a joint or frame may be called so: not empty, no longer than 256 octets.
+[[nodiscard]] bool is_short_name(const std::string& name);
+
 /// A node's name for others to be told apart by: namespace and name.
 struct NodeName {
   std::string ns = "/";

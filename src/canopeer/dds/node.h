@@ -42,6 +42,16 @@ class Publisher {
   std::shared_ptr<Writer> writer_;
 };
 
+/// Whether it is longer than any sound message of its type; some types do not say.
+template <class Message>
+[[nodiscard]] bool is_too_long(const Payload& payload) {
+  if constexpr (requires { Message::kMostOctets; }) {
+    return payload.size() > Message::kMostOctets;
+  } else {
+    return false;
+  }
+}
+
 /// Unsubscribes when the last copy goes.
 using Subscription = std::shared_ptr<Reader>;
 
@@ -69,12 +79,13 @@ class Node {
     return Publisher<Message>(std::move(*writer));
   }
   /// `on_message(Message&&, const Guid& writer)`, in a thread of the DDS library, one at a time.
-  /// Malformed ones are counted and dropped.
+  /// Malformed ones, and those longer than the type's `kMostOctets`, are counted and dropped.
   template <class Message, class Callback>
   [[nodiscard]] Expected<Subscription> subscribe(const std::string& topic, const Qos& qos,
                                                  Callback on_message) {
     return topic_reader(topic, dds_type<Message>(), qos,
                         [this, on_message = std::move(on_message)](Sample&& sample) mutable {
+                          if (is_too_long<Message>(sample.payload)) return count_malformed();
                           auto message = from_cdr<Message>(sample.payload);
                           if (message) {
                             on_message(std::move(*message), sample.identity.writer);
@@ -89,8 +100,8 @@ class Node {
   [[nodiscard]] std::vector<Endpoint> subscribers_of(const std::string& topic) const;
   [[nodiscard]] Rmw rmw_of(const Guid& endpoint) const;
 
-  /// Payloads that were no message of their type, since the node began, or too long for any node
-  /// of this process.
+  /// Payloads that were no message of their type, since the node began, requests of peers whose
+  /// middleware is not known, or what was too long for any node of this process.
   [[nodiscard]] std::int64_t malformed() const;
   void count_malformed() { ++malformed_; }
 

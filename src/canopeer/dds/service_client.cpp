@@ -62,8 +62,8 @@ class DdsClient final : public RawClient {
 
   [[nodiscard]] Expected<std::int64_t> ask(Payload request,
                                            std::function<void(Payload&&)> on_reply) override {
-    const auto dialect = spoken();
-    if (!dialect) return tl::unexpected(dialect.error());
+    const auto dialect = dialect_of(dialects());
+    if (!dialect) return fail_in("service " + service_, dialect.error());
     // Held while it is written, so that the reply finds whom it is for.
     const std::lock_guard lock(mutex_);
     if (*dialect == Rmw::cyclonedds) {
@@ -99,17 +99,10 @@ class DdsClient final : public RawClient {
     if (!peer || peer->rmw() != Rmw::cyclonedds) return true;
     return std::chrono::steady_clock::now() > std::max(peer->since, made_) + kDiscoveredBack;
   }
-  [[nodiscard]] Expected<Rmw> spoken() const {
+  [[nodiscard]] std::set<Rmw> dialects() const {
     std::set<Rmw> dialects;
-    for (const ParticipantId& id : servers()) {
-      const bool headed = node_.participant().rmw_of(id) == Rmw::cyclonedds;
-      dialects.insert(headed ? Rmw::cyclonedds : Rmw::fastrtps);
-    }
-    if (dialects.size() == 1) return *dialects.begin();
-    if (dialects.empty()) return fail("service " + service_ + ": no server is there");
-    return fail("service " + service_ +
-                " has servers on rmw_fastrtps and on rmw_cyclonedds, who would misread each "
-                "other's requests: stop one of them");
+    for (const ParticipantId& id : servers()) dialects.insert(node_.participant().rmw_of(id));
+    return dialects;
   }
   void take(Sample&& reply) {
     std::int64_t number = 0;

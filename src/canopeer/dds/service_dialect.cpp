@@ -12,6 +12,19 @@ constexpr std::size_t kHead = 16;
 
 }  // namespace
 
+Expected<Rmw> dialect_of(const std::set<Rmw>& servers) {
+  if (servers.empty()) return fail("no server is there");
+  if (servers.contains(Rmw::unknown)) {
+    return fail(
+        "a server is on a ROS middleware that is spoken otherwise: start it with "
+        "RMW_IMPLEMENTATION=rmw_fastrtps_cpp or rmw_cyclonedds_cpp");
+  }
+  if (servers.size() == 1) return *servers.begin();
+  return fail(
+      "there are servers on rmw_fastrtps and on rmw_cyclonedds, who would misread each other's "
+      "requests: stop one of them");
+}
+
 Payload with_head(const Payload& body, const RequestHead& head) {
   Payload payload(body.size() + kHead);
   const auto members = body.begin() + kEncapsulation;

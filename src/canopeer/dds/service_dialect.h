@@ -2,14 +2,21 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 
+#include "canopeer/base/expected.h"
 #include "canopeer/cdr/cdr.h"
+#include "canopeer/dds/participant.h"
 
 // How rmw_cyclonedds says whose request a payload is: 16 octets before the members. rmw_fastrtps
 // says it beside the payload, in SampleIdentity.
 
 namespace canopeer::ros {
+
+/// How to speak to all `servers` of a service. The error: there is none, one whose middleware
+/// speaks in neither way, or some of both.
+[[nodiscard]] Expected<Rmw> dialect_of(const std::set<Rmw>& servers);
 
 struct RequestHead {
   std::uint64_t client = 0;

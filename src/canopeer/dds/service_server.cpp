@@ -168,10 +168,11 @@ class DdsServer final : public RawServer {
   void take(Sample&& request) {
     Asker asker;
     asker.writer = request.identity.writer;
-    if (node_.rmw_of(asker.writer) == Rmw::cyclonedds) {
+    asker.dialect = node_.rmw_of(asker.writer);
+    if (asker.dialect == Rmw::unknown) return node_.count_malformed();
+    if (asker.dialect == Rmw::cyclonedds) {
       auto parts = split_head(std::move(request.payload));
       if (!parts) return node_.count_malformed();
-      asker.dialect = Rmw::cyclonedds;
       asker.head = parts->head;
       request.payload = std::move(parts->body);
     } else {

@@ -44,8 +44,9 @@ void judge_joints(CheckBench& bench, double listened_s, Findings& findings) {
   for (const JointHistory* history : bench.sense.by_joint_states()) {
     trolley.insert(trolley.end(), history->joints().begin(), history->joints().end());
   }
-  judge_joint_states(bench.robot, bench.settings.arm, trolley, bench.joint_ear->heard(), listened_s,
-                     odd, findings);
+  const HeardJoints heard = bench.joint_ear->heard();
+  judge_joint_states(bench.robot, bench.settings.arm, trolley, heard, listened_s, odd, findings);
+  judge_speakers(bench.robot, bench.settings.arm, trolley, heard, bench.node_ear.nodes(), findings);
 }
 
 void judge_machines(CheckBench& bench, Findings& findings) {
@@ -59,6 +60,8 @@ void judge_machines(CheckBench& bench, Findings& findings) {
     findings.wrong("arm", (action.empty() ? name + " does not answer" : action) +
                               " (ros2.arm.action); is the controller active?");
   }
+  const Participant& domain = bench.node->participant();
+  judge_action_servers(bench.node->resolve(name), domain.peers(), domain.endpoints(), findings);
   const std::string& safety = bench.settings.arm.safety_mode;
   if (!safety.empty()) {
     const std::string why = missing_topic(*bench.node, safety, "ur_dashboard_msgs/msg/SafetyMode");

@@ -55,6 +55,7 @@ struct RegionOfInterest {
 /// Matrices row by row.
 struct CameraInfo {
   static constexpr std::string_view kType = "sensor_msgs/msg/CameraInfo";
+  static constexpr std::size_t kMostOctets = 1u << 20;
   std_msgs::Header header;
   std::uint32_t height{};
   std::uint32_t width{};
@@ -75,6 +76,7 @@ struct CameraInfo {
 /// Each of the last three is as long as `name` or empty.
 struct JointState {
   static constexpr std::string_view kType = "sensor_msgs/msg/JointState";
+  static constexpr std::size_t kMostOctets = 1u << 20;
   std_msgs::Header header;
   std::vector<std::string> name;
   std::vector<double> position;

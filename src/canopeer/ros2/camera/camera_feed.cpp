@@ -13,6 +13,8 @@ using Steady = FrameIntake::Steady;
 constexpr double kStill = 2e-3;  // rad or m
 /// A topic that says nothing for less is slow.
 constexpr double kSilent_s = 1.0;
+/// Joint states may be late by less.
+constexpr std::int64_t kClockJump = 5 * kNanosecondsPerSecond;
 /// How long one waits before looking at the joints again.
 constexpr auto kGlance = std::chrono::milliseconds(20);
 
@@ -80,6 +82,13 @@ std::optional<Stamp> CameraFeed::counts_from() const {
   return std::max(*still_since, not_before_) + nanoseconds(settings_.settle_s);
 }
 
+Stamp CameraFeed::last_given() const {
+  const auto newest = joints_.newest();
+  const std::lock_guard lock(mutex_);
+  const bool was_set_back = newest && given_ + offset_ > *newest + kClockJump;
+  return was_set_back ? 0 : given_;
+}
+
 std::shared_ptr<const FrameMessages> CameraFeed::newest_with_pose(Stamp after,
                                                                   std::string* why_none) const {
   std::shared_ptr<const FrameMessages> newest;
@@ -110,7 +119,7 @@ Expected<TimedFrame> CameraFeed::capture() {
       continue;
     }
     from = *counts;
-    const Stamp first = std::max(from - offset_, tried + 1);
+    const Stamp first = std::max({from - offset_, tried + 1, last_given() + 1});
     if (!intake_.wait_for(first, std::min(deadline, Steady::now() + kGlance))) continue;
     const auto messages = newest_with_pose(first - 1, &why_none);
     if (messages == nullptr) {  // its joint states come soon
@@ -121,7 +130,11 @@ Expected<TimedFrame> CameraFeed::capture() {
     if (counts_from().value_or(from) > messages->stamp + offset_) continue;
     tried = messages->stamp;
     auto frame = decode(*messages);
-    if (frame) return frame;
+    if (frame) {
+      const std::lock_guard lock(mutex_);
+      given_ = messages->stamp;
+      return frame;
+    }
     why_none = frame.error().message;
   }
   return tl::unexpected(timeout_error(why_none, from));
@@ -186,6 +199,10 @@ Error CameraFeed::timeout_error(const std::string& why_none, Stamp from) const {
             text_of_seconds(seconds(from - *newest - offset_)) +
             " before the arm had stood still for settle_s: does the arm move, or is the camera's "
             "clock behind (time_offset_s)?"};
+  }
+  if (newest && *newest <= last_given()) {
+    return {head + "nothing came on " + parts_.topic(parts_.intake.parts.front()) +
+            " since the last frame"};
   }
   return {head + "the arm does not stand still"};
 }

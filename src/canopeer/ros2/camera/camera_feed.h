@@ -51,9 +51,9 @@ class CameraFeed {
   /// just stopped. By the clock of joint states.
   void not_before(Stamp stamp);
 
-  /// The newest frame whose stamp lies `settle_s` after the arm stood still, or later; waits for it
-  /// up to `timeout_s`. Messages that cannot be read are counted and passed over. The error says
-  /// what is missing and where.
+  /// The newest frame whose stamp lies `settle_s` after the arm stood still, or later, and none
+  /// twice; waits for it up to `timeout_s`. Messages that cannot be read are counted and passed
+  /// over. The error says what is missing and where.
   [[nodiscard]] Expected<TimedFrame> capture();
 
   /// Frames taken after `stamp` (by the clock of joint states) whether the arm moves or not, by
@@ -74,6 +74,9 @@ class CameraFeed {
  private:
   /// From when on frames count; nothing: joints are not known.
   [[nodiscard]] std::optional<Stamp> counts_from() const;
+  /// The stamp of the frame that capture() gave last, by the camera's clock. 0: none yet, or the
+  /// clock was set back since.
+  [[nodiscard]] Stamp last_given() const;
   /// The newest that came after `after` (camera's clock) and whose pose is known; null: none.
   [[nodiscard]] std::shared_ptr<const FrameMessages> newest_with_pose(Stamp after,
                                                                       std::string* why_none) const;
@@ -91,6 +94,7 @@ class CameraFeed {
   mutable std::mutex mutex_;  // of all below
   FrameAssembler assembler_;
   Stamp not_before_ = 0;
+  Stamp given_ = 0;  // see last_given()
   std::int64_t malformed_ = 0;
   std::string last_flaw_;
   Stamp unreadable_ = 0;  // stamp of the last frame that could not be read

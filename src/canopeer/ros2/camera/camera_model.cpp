@@ -5,6 +5,8 @@
 #include <limits>
 #include <string>
 
+#include "canopeer/ros2/camera/raw_image.h"
+
 namespace canopeer::ros {
 namespace {
 
@@ -74,9 +76,16 @@ Expected<CameraIntrinsics> pinhole_of(const sensor_msgs::CameraInfo& info, bool 
   const double cx = from_p ? info.p[2] : info.k[2], cy = from_p ? info.p[6] : info.k[5];
   const auto& roi = info.roi;
   const double bin_x = std::max(info.binning_x, 1u), bin_y = std::max(info.binning_y, 1u);
+  const double width = (roi.width != 0 ? roi.width : info.width) / bin_x;
+  const double height = (roi.height != 0 ? roi.height : info.height) / bin_y;
+  if (auto size =
+          check_image_size(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height));
+      !size) {
+    return fail_in("the camera info", size.error());
+  }
   CameraIntrinsics camera;
-  camera.width = static_cast<int>((roi.width != 0 ? roi.width : info.width) / bin_x);
-  camera.height = static_cast<int>((roi.height != 0 ? roi.height : info.height) / bin_y);
+  camera.width = static_cast<int>(width);
+  camera.height = static_cast<int>(height);
   camera.fx = fx / bin_x;
   camera.fy = fy / bin_y;
   camera.cx = (cx + 0.5 - roi.x_offset) / bin_x;
@@ -87,7 +96,6 @@ Expected<CameraIntrinsics> pinhole_of(const sensor_msgs::CameraInfo& info, bool 
     return fail("the camera info has no calibration (its focal length is " + std::to_string(fx) +
                 "): calibrate the camera, or give its driver the calibration file");
   }
-  if (camera.width <= 0 || camera.height <= 0) return fail("the camera info says no image size");
   return camera;
 }
 

@@ -140,18 +140,11 @@ Expected<RgbdFrame> FrameAssembler::from_cloud(const FrameMessages& messages) {
         "the cloud has no colours (field rgb), which detectors need: have the driver add "
         "them, or give color, depth and info in place of points");
   }
-  RgbdFrame frame;
-  if (messages.info != nullptr) {
-    const auto said = model(*messages.info, images->depth.width(), images->depth.height(), false);
-    if (!said) return tl::unexpected(said.error());
-    frame.intrinsics = said->intrinsics;
-  } else if (images->intrinsics) {
-    frame.intrinsics = *images->intrinsics;
-  } else {
-    return fail(
-        "the cloud has too few points to tell the camera's focal length, and no camera "
-        "info came");
+  if (!images->intrinsics) {
+    return fail("the cloud has too few points to tell the camera's focal length");
   }
+  RgbdFrame frame;
+  frame.intrinsics = *images->intrinsics;
   frame.depth = std::move(images->depth);
   frame.color = std::move(images->color);
   return frame;

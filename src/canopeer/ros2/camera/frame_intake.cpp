@@ -15,6 +15,16 @@ std::string encoding_of(const PartMessage& message) {
   return "";
 }
 
+std::size_t octets_beside_data(const sensor_msgs::Image& image) { return image.encoding.size(); }
+std::size_t octets_beside_data(const sensor_msgs::CompressedImage& image) {
+  return image.format.size();
+}
+std::size_t octets_beside_data(const sensor_msgs::PointCloud2& cloud) {
+  std::size_t sum = 0;
+  for (const auto& field : cloud.fields) sum += sizeof field + field.name.size();
+  return sum;
+}
+
 std::size_t octets_of_frame(const FrameMessages& frame) {
   std::size_t sum = 0;
   for (const auto& part : frame.parts) sum += part != nullptr ? octets_of(*part) : 0;
@@ -22,6 +32,13 @@ std::size_t octets_of_frame(const FrameMessages& frame) {
 }
 
 }  // namespace
+
+std::size_t octets_of(const PartMessage& message) {
+  const auto count = [](const auto& m) {
+    return m.header.frame_id.size() + octets_beside_data(m) + m.data.size();
+  };
+  return std::visit(count, message);
+}
 
 FrameIntake::FrameIntake(FrameIntakeOptions options)
     : options_(std::move(options)), sync_(options_.parts.size(), options_.sync) {}

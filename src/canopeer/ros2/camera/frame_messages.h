@@ -27,9 +27,8 @@ using PartMessage =
 [[nodiscard]] inline const std_msgs::Header& header_of(const PartMessage& message) {
   return std::visit([](const auto& m) -> const std_msgs::Header& { return m.header; }, message);
 }
-[[nodiscard]] inline std::size_t octets_of(const PartMessage& message) {
-  return std::visit([](const auto& m) { return m.data.size(); }, message);
-}
+/// What it holds in memory, texts and fields included.
+[[nodiscard]] std::size_t octets_of(const PartMessage& message);
 
 /// Messages that belong together, not looked into yet.
 struct FrameMessages {

@@ -13,6 +13,9 @@ namespace {
 
 using sensor_msgs::PointField;
 
+/// What lies farther is damage: no camera measures it.
+constexpr double kFarthest_m = 1e4;
+
 std::size_t octets_of(std::uint8_t datatype) {
   switch (datatype) {
     case PointField::INT8:
@@ -137,7 +140,7 @@ Expected<CloudImages> images_of(const sensor_msgs::PointCloud2& cloud) {
       if (color_field != nullptr) images.color.at(u, v) = packed_color(point, *color_field, order);
       const double z = real_at(point, **z_field, order);
       const double x = real_at(point, **x_field, order), y = real_at(point, **y_field, order);
-      if (!(z > 0.0 && std::isfinite(x + y + z))) continue;
+      if (!(z > 0.0 && z < kFarthest_m && std::isfinite(x + y))) continue;
       images.depth.at(u, v) = static_cast<float>(z);
       across.add(x / z, u + 0.5);
       down.add(y / z, v + 0.5);

@@ -145,7 +145,7 @@ Expected<void> Ros2Camera::subscribe(Node& node, const Ros2CameraSettings& setti
     auto made = subscribe_part(node, part, topic_of(settings, part), qos);
     if (!made) return made;
   }
-  if (!settings.info.empty()) {
+  if (settings.points.empty()) {  // a cloud says its camera by itself
     auto made = node.subscribe<sensor_msgs::CameraInfo>(
         settings.info, qos, [this](sensor_msgs::CameraInfo&& info, const Guid&) {
           feed_->intake().set_info(std::move(info));

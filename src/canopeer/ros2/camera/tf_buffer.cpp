@@ -5,11 +5,14 @@
 #include <cstdio>
 #include <set>
 
+#include "canopeer/dds/names.h"
+
 namespace canopeer::ros {
 namespace {
 
 constexpr std::size_t kMostFrames = 2000;
-constexpr std::size_t kMostSamples = 100'000;
+/// Between samples that lie farther apart nobody knows where a frame was; as of joints.
+constexpr double kMaxGap_s = 0.5;
 /// Publishers overtake each other by milliseconds; by this much only a clock that was set.
 constexpr std::int64_t kClockJump = kNanosecondsPerSecond;
 
@@ -47,7 +50,26 @@ std::string seconds_text(std::int64_t ns) {
 
 }  // namespace
 
-TfBuffer::TfBuffer(double span_s) : span_(nanoseconds(span_s)) {}
+TfBuffer::TfBuffer(double span_s, std::size_t most_samples)
+    : span_(nanoseconds(span_s)), most_samples_(std::max(most_samples, kMostFrames)) {}
+
+TfBuffer::Link& TfBuffer::longest() {
+  return std::max_element(links_.begin(), links_.end(),
+                          [](const auto& a, const auto& b) {
+                            return a.second.samples.size() < b.second.samples.size();
+                          })
+      ->second;
+}
+
+void TfBuffer::forget_oldest(Link& link) {
+  link.samples.pop_front();
+  --samples_;
+}
+
+void TfBuffer::forget_all(Link& link) {
+  samples_ -= link.samples.size();
+  link.samples.clear();
+}
 
 void TfBuffer::add(const tf2_msgs::TFMessage& message, bool is_static) {
   const std::lock_guard lock(mutex_);
@@ -56,22 +78,26 @@ void TfBuffer::add(const tf2_msgs::TFMessage& message, bool is_static) {
     const std::string child = plain_frame(transform.child_frame_id);
     const auto pose = pose_in(transform.transform);
     const bool has_room = links_.size() < kMostFrames || links_.count(child) > 0;
-    if (!pose || parent.empty() || child.empty() || parent == child || !has_room) {
+    const bool named = is_short_name(parent) && is_short_name(child) && parent != child;
+    if (!pose || !named || !has_room) {
       ++malformed_;
       continue;
     }
     Link& link = links_[child];
     const Sample sample{stamp_of(transform.header.stamp), *pose};
-    if (link.parent != parent || link.is_static || is_static) link = Link{parent, is_static, {}};
+    if (link.parent != parent || link.is_static || is_static) {
+      forget_all(link);
+      link = Link{parent, is_static, {}};
+    }
     auto& samples = link.samples;
     if (!samples.empty() && sample.stamp <= samples.back().stamp) {
       if (samples.back().stamp - sample.stamp < kClockJump) continue;
-      samples.clear();
+      forget_all(link);
     }
     samples.push_back(sample);
-    while (samples.size() > kMostSamples || samples.front().stamp < sample.stamp - span_) {
-      samples.pop_front();
-    }
+    ++samples_;
+    while (samples.front().stamp < sample.stamp - span_) forget_oldest(link);
+    if (samples_ > most_samples_) forget_oldest(longest());
   }
 }
 
@@ -130,8 +156,12 @@ Expected<Pose> TfBuffer::step(const std::string& child, std::optional<Stamp> sta
                        [](const Sample& sample, Stamp at) { return sample.stamp < at; });
   if (after->stamp == *stamp) return after->T_parent_child;
   const auto before = std::prev(after);
-  const double share = static_cast<double>(*stamp - before->stamp) /
-                       static_cast<double>(after->stamp - before->stamp);
+  const std::int64_t gap = after->stamp - before->stamp;
+  if (gap > nanoseconds(kMaxGap_s)) {
+    return fail("tf says nothing of '" + child + "' in '" + link.parent + "' for " +
+                seconds_text(gap) + ": have it published more often, or as static");
+  }
+  const double share = static_cast<double>(*stamp - before->stamp) / static_cast<double>(gap);
   return between_poses(before->T_parent_child, after->T_parent_child, share);
 }
 

@@ -18,17 +18,18 @@ namespace canopeer::ros {
 /// Thread-safe. What it keeps is bounded.
 class TfBuffer {
  public:
-  /// What is older than `span_s` before the newest of a frame is forgotten.
-  explicit TfBuffer(double span_s = 10.0);
+  /// What is older than `span_s` before the newest of a frame is forgotten, and the oldest of the
+  /// frame with the most samples when all have more than `most_samples` (2000 or more) together.
+  explicit TfBuffer(double span_s = 10.0, std::size_t most_samples = 1'000'000);
 
-  /// Transforms that make no sense (numbers that are none, a frame on itself, no names) are counted
-  /// and passed over.
+  /// Transforms that make no sense (numbers that are none, a frame on itself, no names or too long
+  /// ones) are counted and passed over.
   void add(const tf2_msgs::TFMessage& message, bool is_static);
   [[nodiscard]] std::int64_t malformed() const;
 
   /// T_target_source at that time, each step between its neighbours: position linear, rotation
   /// along the shortest arc. The error: a frame is not known, the two do not hang together, or it
-  /// was not known then (by how much too early or late).
+  /// was not known then (by how much too early or late, or neighbours more than 0.5 s apart).
   [[nodiscard]] Expected<Pose> lookup(const std::string& target, const std::string& source,
                                       Stamp stamp) const;
   /// The same with the newest of each step.
@@ -62,9 +63,16 @@ class TfBuffer {
   [[nodiscard]] Expected<Pose> walk(const std::string& target, const std::string& source,
                                     std::optional<Stamp> stamp) const;
 
+  /// The one with the most samples.
+  [[nodiscard]] Link& longest();
+  void forget_oldest(Link& link);
+  void forget_all(Link& link);
+
   const std::int64_t span_;
+  const std::size_t most_samples_;
   mutable std::mutex mutex_;
   std::map<std::string, Link> links_;  // by child
+  std::size_t samples_ = 0;            // of all links
   std::int64_t malformed_ = 0;
 };
 

@@ -17,8 +17,10 @@ namespace canopeer::ros {
 /// What joint states said, by the driver's names.
 struct HeardJoints {
   std::map<std::string, double> positions;  ///< the last of each, rad or m
-  std::set<std::string> not_finite;         ///< joints whose positions are no numbers
-  std::map<std::string, int> messages;      ///< by topic
+  /// The last of each by who says it, since it was counted; the first few who do.
+  std::map<std::string, std::map<Guid, double>> said_by;
+  std::set<std::string> not_finite;     ///< joints whose positions are no numbers
+  std::map<std::string, int> messages;  ///< by topic
   int without_stamp = 0;
   std::optional<double> least_age_s;  ///< see ClockDifference
 };
@@ -29,9 +31,9 @@ class JointEar {
   /// `now`: ROS time by our clock.
   explicit JointEar(std::function<Stamp()> now) : now_(std::move(now)) {}
   [[nodiscard]] Expected<void> listen(Node& node, const std::vector<std::string>& topics);
-  void take(const std::string& topic, const sensor_msgs::JointState& state);
+  void take(const std::string& topic, const sensor_msgs::JointState& state, const Guid& writer);
   [[nodiscard]] HeardJoints heard() const;
-  /// Forgets how many messages came.
+  /// Forgets how many messages came, and of whom.
   void count_from_now();
 
  private:

@@ -18,6 +18,21 @@ std::string names_listed(const std::vector<std::string>& names) {
   return list;
 }
 
+std::vector<std::string> wanted_joints(const RobotModel& robot,
+                                       const std::vector<std::string>& trolley) {
+  std::vector<std::string> wanted = robot.setup().arm_joints;
+  wanted.insert(wanted.end(), trolley.begin(), trolley.end());
+  return wanted;
+}
+
+/// "/robot_driver", or what there is of one without a name.
+std::string speaker_named(const Guid& writer,
+                          const std::map<ParticipantId, std::set<std::string>>& nodes) {
+  const auto named = nodes.find(participant_of(writer));
+  if (named == nodes.end() || named->second.empty()) return "a node that tells no name";
+  return names_listed({named->second.begin(), named->second.end()});
+}
+
 /// Names that were heard and that no joint of the description has.
 std::vector<std::string> unmapped_names(const RobotModel& robot, const Ros2ArmSettings& settings,
                                         const HeardJoints& heard) {
@@ -120,10 +135,30 @@ void judge_joint_states(const RobotModel& robot, const Ros2ArmSettings& settings
   } else {
     findings.ok(kJointStates, rates);
   }
-  std::vector<std::string> wanted = robot.setup().arm_joints;
-  wanted.insert(wanted.end(), trolley.begin(), trolley.end());
-  judge_names(robot, settings, wanted, heard, findings);
+  judge_names(robot, settings, wanted_joints(robot, trolley), heard, findings);
   judge_positions(robot, settings, heard, findings);
+}
+
+void judge_speakers(const RobotModel& robot, const Ros2ArmSettings& settings,
+                    const std::vector<std::string>& trolley, const HeardJoints& heard,
+                    const std::map<ParticipantId, std::set<std::string>>& nodes,
+                    Findings& findings) {
+  const auto by_position = [](const auto& a, const auto& b) { return a.second < b.second; };
+  for (const std::string& joint : wanted_joints(robot, trolley)) {
+    const std::string name = drivers_name(settings.joint_names, joint);
+    const auto said = heard.said_by.find(name);
+    if (said == heard.said_by.end()) continue;
+    const auto [least, most] =
+        std::minmax_element(said->second.begin(), said->second.end(), by_position);
+    if (!(most->second - least->second > settings.start_tolerance_rad)) continue;
+    findings.wrong(kJointStates, name + " is at " + figure(least->second, 3) + " by " +
+                                     speaker_named(least->first, nodes) + " and at " +
+                                     figure(most->second, 3) + " by " +
+                                     speaker_named(most->first, nodes) +
+                                     ": stop one of them, or name the right one's topic in "
+                                     "ros2.arm.joint_states");
+    return;
+  }
 }
 
 }  // namespace canopeer::ros

@@ -17,4 +17,11 @@ void judge_joint_states(const RobotModel& robot, const Ros2ArmSettings& settings
                         const std::vector<std::string>& trolley, const HeardJoints& heard,
                         double listened_s, const std::string& silent_why, Findings& findings);
 
+/// Whether several publishers agree on joints of the arm and the trolley, while all stands still.
+/// `nodes`: names of a publisher's participant.
+void judge_speakers(const RobotModel& robot, const Ros2ArmSettings& settings,
+                    const std::vector<std::string>& trolley, const HeardJoints& heard,
+                    const std::map<ParticipantId, std::set<std::string>>& nodes,
+                    Findings& findings);
+
 }  // namespace canopeer::ros

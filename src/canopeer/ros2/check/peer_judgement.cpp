@@ -54,4 +54,18 @@ void judge_peers(const std::vector<Peer>& peers,
   }
 }
 
+void judge_action_servers(const std::string& action, const std::vector<Peer>& peers,
+                          const std::vector<Endpoint>& endpoints, Findings& findings) {
+  const std::string requests = "rq" + action + "/_action/send_goalRequest";
+  for (const Endpoint& endpoint : endpoints) {
+    if (endpoint.writer || endpoint.topic != requests) continue;
+    for (const Peer& peer : peers) {
+      if (peer.id != participant_of(endpoint.guid) || peer.rmw() != Rmw::unknown) continue;
+      findings.wrong("arm", action + " is served by a peer on " + peer.vendor_name() +
+                                ", whose actions are not understood: start it with "
+                                "RMW_IMPLEMENTATION=rmw_fastrtps_cpp or rmw_cyclonedds_cpp");
+    }
+  }
+}
+
 }  // namespace canopeer::ros

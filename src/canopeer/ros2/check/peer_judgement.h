@@ -15,4 +15,8 @@ void judge_peers(const std::vector<Peer>& peers,
                  const std::map<ParticipantId, std::set<std::string>>& nodes,
                  const NodeOptions& ours, Findings& findings);
 
+/// Whether the action's servers (`peers` who have one of `endpoints`) are understood.
+void judge_action_servers(const std::string& action, const std::vector<Peer>& peers,
+                          const std::vector<Endpoint>& endpoints, Findings& findings);
+
 }  // namespace canopeer::ros

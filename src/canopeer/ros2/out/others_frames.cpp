@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "canopeer/dds/names.h"
+
 namespace canopeer::ros {
 namespace {
 
@@ -42,7 +44,8 @@ void OthersFrames::take(const tf2_msgs::TFMessage& message, bool is_static) {
   const std::lock_guard lock(mutex_);
   for (const auto& transform : message.transforms) {
     const auto T = motion_of(transform.transform);
-    if (!T || transform.child_frame_id.empty() || transform.header.frame_id.empty()) continue;
+    if (!T || !is_short_name(transform.child_frame_id)) continue;
+    if (!is_short_name(transform.header.frame_id)) continue;
     if (heard_.size() >= kMostOthers && !heard_.contains(transform.child_frame_id)) continue;
     heard_[transform.child_frame_id] = {{transform.header.frame_id, *T}, Steady::now(), is_static};
   }
