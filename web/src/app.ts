@@ -7,7 +7,7 @@ import { kLayers, Layers } from "./layers.ts";
 import { type Actions, type Moment, momentAt, type Selection } from "./moment.ts";
 import { Panels } from "./panels/panels.ts";
 import { PictureStore } from "./pictures/picture_store.ts";
-import { formatPlace, parsePlace, type Place } from "./place.ts";
+import { formatPlace, parsePlace, type Place, timeOfPlace } from "./place.ts";
 import { Playback } from "./playback.ts";
 import { openScene, type Scene } from "./scene/scene.ts";
 import { Theme } from "./theme.ts";
@@ -46,7 +46,8 @@ export class App implements Actions {
       begins: () => this.begin(),
       frame: (message) => this.take(message),
       damaged: (why) => this.takeDamaged(why),
-      complete: () => this.complete,
+      ends: () => this.takeClose(),
+      complete: () => this.timeline.complete,
       state: (state) => {
         this.connectionState = state;
         this.sayState();
@@ -74,13 +75,7 @@ export class App implements Actions {
   }
 
   get live(): boolean {
-    return this.timeline.reader.live && !this.timeline.end;
-  }
-
-  /** Nothing more is to come. */
-  private get complete(): boolean {
-    const { end, reader, arrived, hello } = this.timeline;
-    return end !== null || (hello !== null && !reader.live && arrived === 1);
+    return this.timeline.reader.live && !this.timeline.complete;
   }
 
   seek(t: number): void {
@@ -90,6 +85,7 @@ export class App implements Actions {
   }
 
   selectView(number: number): void {
+    this.goal = null;
     this.selection = { is: "view", view: number };
     const view = this.timeline.view(number);
     if (view && !this.playback.follow) this.playback.seek(view.t, this.timeline);
@@ -125,6 +121,7 @@ export class App implements Actions {
   }
 
   stepView(by: 1 | -1): void {
+    this.goal = null;
     this.playback.stepView(by, this.timeline);
     const view = this.timeline.viewAt(this.playback.t);
     if (this.selection?.is === "view" && view) this.selectView(view.view);
@@ -132,11 +129,13 @@ export class App implements Actions {
   }
 
   stepSegment(by: 1 | -1): void {
+    this.goal = null;
     this.playback.stepSegment(by, this.timeline);
     this.writePlace();
   }
 
   toggle(): void {
+    this.goal = null;
     this.playback.toggle(this.timeline);
     // What the camera sees goes on with the run.
     if (this.playback.playing && this.selection?.is === "view") this.clearSelection();
@@ -144,6 +143,7 @@ export class App implements Actions {
   }
 
   goLive(): void {
+    this.goal = null;
     this.playback.setFollow(this.timeline);
   }
 
@@ -160,9 +160,15 @@ export class App implements Actions {
     requestAnimationFrame((now) => this.tick(now));
   }
 
+  /** A stream begins: the first one, or after a break that of the same run or another. */
   private begin(): void {
+    // Back to where it was, as soon as that has come again.
+    if (!this.first && !this.playback.follow && !this.hasGoal()) this.goal = { t: this.playback.t };
     this.timeline = new Timeline();
-    this.store.timeline = this.timeline;
+    this.store.begin(this.timeline);
+    this.playback.restart();
+    this.panels.pictures.close();
+    this.scene?.load(this.timeline);
     this.shownChanges = -1;
   }
 
@@ -174,10 +180,15 @@ export class App implements Actions {
       if (this.live && this.first && !this.hasGoal()) this.playback.follow = true;
       this.first = false;
     }
-    if (message?.type === "end") {
-      if (this.playback.follow) this.playback.seek(this.timeline.duration, this.timeline);
-    }
-    if (this.complete || this.timeline.taken % 50 === 1) this.sayState();
+    if (message?.type === "view" && this.selection?.is === "view" && this.selection.view === message.view)
+      this.scene?.choose(this.selection, this.timeline.view(message.view));
+    this.afterFrame();
+  }
+
+  private afterFrame(): void {
+    const { complete, duration, taken } = this.timeline;
+    if (complete && this.playback.follow) this.playback.seek(duration, this.timeline);
+    if (complete || taken % 50 === 1) this.sayState();
     this.playback.arrived(this.timeline);
     this.reachGoal();
     this.wake();
@@ -187,7 +198,12 @@ export class App implements Actions {
     console.warn(why);
     ++this.timeline.taken;
     this.timeline.append({ type: "log", t: this.timeline.newest, level: "notice", text: `A message could not be read: ${why}` });
-    this.wake();
+    this.afterFrame();
+  }
+
+  private takeClose(): void {
+    this.timeline.closed = true;
+    this.afterFrame();
   }
 
   private hasGoal(): boolean {
@@ -198,17 +214,11 @@ export class App implements Actions {
   private reachGoal(): void {
     const goal = this.goal;
     if (!goal) return;
-    const view = goal.view === undefined ? null : this.timeline.view(goal.view);
-    if (view && goal.view !== undefined) {
-      this.goal = null;
-      this.playback.seek(view.t, this.timeline);
-      this.selectView(goal.view);
-    } else if (goal.t !== undefined && this.timeline.newest >= goal.t) {
-      this.goal = null;
-      this.playback.seek(goal.t, this.timeline);
-    } else {
-      return;
-    }
+    const t = timeOfPlace(goal, this.timeline);
+    if (t === null) return;
+    this.goal = null;
+    this.playback.seek(t, this.timeline);
+    if (goal.view !== undefined) this.selectView(goal.view);
     if (goal.fruit !== undefined) this.selectFruit(goal.fruit);
   }
 
@@ -248,7 +258,9 @@ export class App implements Actions {
       this.panels.say("lost", `This page reads protocol ${kProtocol}, the program speaks ${theirs}. Reload the page; if that does not help, it comes from another version.`, "warning");
     } else if (end) {
       this.panels.say(end.interrupted ? "cut off" : reader.live ? "done" : "replay", "");
-    } else if (this.complete) {
+    } else if (this.timeline.closed && arrived < 1) {
+      this.panels.say("cut off", `This replay is damaged: only the first ${Math.floor(100 * arrived)} % can be read.`, "warning");
+    } else if (this.timeline.complete) {
       this.panels.say("cut off", "This run was cut off: its replay has no end.");
     } else if (this.connectionState.is === "lost") {
       this.panels.say("lost", `No connection to Canopeer. Is it still running? Next try in ${this.connectionState.again_s} s.`, "warning");

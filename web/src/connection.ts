@@ -17,7 +17,9 @@ export interface ConnectionEvents {
   state(state: ConnectionState): void;
   /** A frame that could not be read. */
   damaged(why: string): void;
-  /** Whether anything more is to be expected. */
+  /** The server closed the stream: it has no more than what came. */
+  ends(): void;
+  /** Whether nothing more is to be expected. */
   complete(): boolean;
 }
 
@@ -60,8 +62,10 @@ export class Connection {
     socket.onmessage = ({ data }) => {
       if (data instanceof ArrayBuffer && !this.finished) this.take(new Uint8Array(data));
     };
-    socket.onclose = () => {
-      if (!this.finished) this.retry();
+    socket.onclose = (event) => {
+      if (this.finished) return;
+      if (isEnd(event)) this.events.ends();
+      this.retry();
     };
   }
 
@@ -91,6 +95,13 @@ export class Connection {
     this.events.state({ is: "lost", again_s });
     setTimeout(() => this.open(), 1000 * again_s);
   }
+}
+
+/** Whether a server closed because it is through, not because it broke or goes away. */
+export function isEnd({ wasClean, code }: { wasClean: boolean; code: number }): boolean {
+  const kNormal = 1000;
+  const kNoCode = 1005;
+  return wasClean && (code === kNormal || code === kNoCode);
 }
 
 /** The socket beside this page; the token in its address goes along. */

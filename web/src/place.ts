@@ -1,3 +1,5 @@
+import type { Timeline } from "./data/timeline.ts";
+
 /** A place in a run, as links name it: `#view=12` or `#t=33.5`; `fruit=3` may come with either. */
 export interface Place {
   view?: number;
@@ -23,4 +25,12 @@ export function formatPlace(place: Place): string {
   else if (place.t !== undefined) members.push(`t=${Number(place.t.toFixed(2))}`);
   if (place.fruit !== undefined) members.push(`fruit=${place.fruit}`);
   return `#${members.join("&")}`;
+}
+
+/** When a place is, once so much of the run has come; null: not yet, or there is no such view. */
+export function timeOfPlace({ view, t }: Place, timeline: Timeline): number | null {
+  if (view !== undefined) return timeline.view(view)?.t ?? null;
+  if (t === undefined) return null;
+  // Times in links are rounded: that of the end may lie after it.
+  return timeline.newest >= t || timeline.complete ? Math.min(t, timeline.duration) : null;
 }

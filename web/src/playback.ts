@@ -15,6 +15,15 @@ export class Playback {
 
   constructor(private readonly changed: () => void) {}
 
+  /** The stream begins anew, of this run or another. */
+  restart(): void {
+    this.t = 0;
+    this.playing = false;
+    this.pace = 1;
+    this.newestAt = { wall: 0, t: 0 };
+    this.changed();
+  }
+
   /** Something new came in. */
   arrived(timeline: Timeline): void {
     const wall = performance.now() / 1000;

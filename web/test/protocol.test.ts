@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import { FrameError } from "../src/data/fields.ts";
-import type { MapChange, Motion, Plan, Robot, Truth } from "../src/data/messages.ts";
+import type { Fruits, MapChange, Motion, Plan, Robot, Truth, View } from "../src/data/messages.ts";
 import { readFrame, splitFrames } from "../src/data/protocol.ts";
 import { file, frame, random } from "./made/frames.ts";
 import { robotHead } from "./made/robot.ts";
@@ -35,12 +35,30 @@ test("blocks of the map come with their octets", () => {
 
 test("a plan's views, edges and gone edges are told apart", () => {
   const head = { type: "plan", t_s: 1, segment: 0, fresh: true, views: 1, edges: 1, gone_edges: 1, path: [4], at: 2, visited: [2] };
-  const plan = readFrame(
-    frame(head, Int32Array.of(4), Float32Array.of(1, 2, 3, 0, 0, 1), Uint8Array.of(2), Int32Array.of(4, 2), Int32Array.of(1, 2)),
-  ) as Plan;
+  const octets = [Int32Array.of(4), Float32Array.of(1, 2, 3, 0, 0, 1), Uint8Array.of(2), Int32Array.of(4, 2), Int32Array.of(1, 2)];
+  const plan = readFrame(frame(head, ...octets)) as Plan;
   assert.deepEqual(plan.nodes, [{ id: 4, position: [1, 2, 3], direction: [0, 0, 1], kind: "occupied" }]);
   assert.deepEqual([...plan.edges], [4, 2]);
   assert.deepEqual([...plan.goneEdges], [1, 2]);
+  assert.deepEqual([...plan.goneNodes], []);
+  const more = readFrame(frame({ ...head, gone_views: 2 }, ...octets, Int32Array.of(1, 7))) as Plan;
+  assert.deepEqual([...more.goneEdges], [1, 2]);
+  assert.deepEqual([...more.goneNodes], [1, 7]);
+  refuses(frame({ ...head, gone_views: 3 }, ...octets, Int32Array.of(1, 7)), /too few/);
+});
+
+test("a view may say what its camera is", () => {
+  const head = { type: "view", view: 0, segment: 0, t_s: 0, q: [], T_world_camera: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0] };
+  const camera = { width: 1280, height: 720, fx: 900, fy: 901, cx: 640, cy: 360 };
+  assert.deepEqual((readFrame(frame({ ...head, camera })) as View).camera, camera);
+  assert.equal((readFrame(frame(head)) as View).camera, null);
+  refuses(frame({ ...head, camera: { ...camera, fy: 0 } }), /focal length/);
+  refuses(frame({ ...head, camera: { ...camera, width: -1 } }), /width/);
+});
+
+test("fruits may be of no view", () => {
+  assert.equal((readFrame(frame({ type: "fruits", view: -1, t_s: 0 })) as Fruits).view, -1);
+  refuses(frame({ type: "fruits", view: 0.5, t_s: 0 }), /whole/);
 });
 
 test("meshes of the robot are cut out of the octets", () => {

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import type { Message } from "../src/data/messages.ts";
+import type { Message, View } from "../src/data/messages.ts";
 import { readFrame } from "../src/data/protocol.ts";
 import { blockIndex, blockKey } from "../src/data/block_history.ts";
 import { edgeEnds, edgeKey, Timeline } from "../src/data/timeline.ts";
@@ -98,6 +98,77 @@ test("a fresh plan forgets the graph before it", () => {
   assert.deepEqual(ids(1), [1, 2]);
   assert.deepEqual(ids(2), [3]);
   assert.deepEqual([...timeline.visited.entriesAt(2)], [[3, true]]);
+});
+
+test("views of the graph go, come again and change what they are after, at every step", () => {
+  const timeline = new Timeline();
+  const plan = (views: [number, number][], gone: number[], visited: number[] = []) =>
+    read(
+      { type: "plan", t_s: timeline.newest + 1, views: views.length, gone_views: gone.length, visited },
+      ...views.flatMap(([id, kind]) => [Int32Array.of(id), new Float32Array(6), Uint8Array.of(kind)]), Int32Array.from(gone),
+    ); // prettier-ignore
+  const steps: [[number, number][], number[], number[]][] = [
+    [[[1, 1], [2, 1], [3, 2]], [], [2]],
+    [[[1, 3]], [2], []],
+    [[[2, 2]], [3, 1], []],
+    [[[2, 1]], [99], [2]],
+    [[[5, 1]], [2, 5], []],
+  ]; // prettier-ignore
+  for (const [views, gone, visited] of steps) timeline.append(plan(views, gone, visited));
+  const kinds = (step: number) => Object.fromEntries([...timeline.nodes.entriesAt(step)].map(([id, node]) => [id, node.kind]));
+  const seen = (step: number) => [...timeline.visited.entriesAt(step)].map(([id]) => id);
+  const wanted = [{ 1: "roi", 2: "roi", 3: "occupied" }, { 1: "border", 3: "occupied" }, { 2: "occupied" }, { 2: "roi" }, { 5: "roi" }];
+  for (const step of [4, 0, 2, 1, 3, 0, 4, -1]) {
+    assert.deepEqual(kinds(step), wanted[step] ?? {});
+    assert.deepEqual(seen(step), step === 0 || step === 3 ? [2] : []);
+  }
+  assert.equal(timeline.planAt(4)?.goneNodes.length, 0);
+});
+
+test("a view's camera holds from then on", () => {
+  const timeline = timelineOf(3);
+  const first = messages.find((m) => m.type === "view") as View;
+  const camera = { width: 100, height: 50, fx: 60, fy: 60, cx: 50, cy: 25 };
+  const other = { ...camera, fx: 70 };
+  [null, camera, null, other].forEach((c, i) => timeline.append({ ...first, view: i, t: i, camera: c }));
+  const used = timeline.views.map((v) => timeline.cameraOf(v));
+  assert.deepEqual(used, [timeline.robot?.camera, camera, camera, other]);
+  assert.equal(used[1], used[2]);
+  assert.equal(timeline.cameraOf(timeline.viewAt(0.5)), timeline.robot?.camera);
+  assert.equal(timeline.cameraOf(timeline.viewAt(2.5)), camera);
+  assert.equal(timeline.cameraOf(timeline.viewAt(-1)), timeline.robot?.camera);
+  assert.equal(new Timeline().cameraOf(null), null);
+});
+
+test("a view's later fruits join its earlier ones", () => {
+  const timeline = new Timeline();
+  const fruits = (view: number, t: number, ids: number[], gone: number[] = []) =>
+    timeline.append(read({ type: "fruits", view, t_s: t, changed: ids.map((id) => ({ id, centre: [0, 0, t], semi_axes: [1, 1, 1] })), gone }));
+  fruits(-1, 0, [9]);
+  fruits(4, 1, [1, 2]);
+  fruits(4, 5, [2, 3], [1]);
+  assert.deepEqual(timeline.fruitsOfView.get(4)?.map((f) => [f.id, f.centre[2]]), [[1, 1], [2, 5], [3, 5]]);
+  const ids = (step: number) => [...timeline.fruits.entriesAt(step)].map(([id]) => id);
+  assert.deepEqual([0, 1, 2].map(ids), [[9], [9, 1, 2], [9, 2, 3]]);
+});
+
+test("a run is complete with its end, with all that was announced, or when the server is through", () => {
+  const announced = (frames: number, live: boolean) => {
+    const timeline = timelineOf(5);
+    timeline.append({ type: "reader", live, controls: false, frames });
+    timeline.taken = 5;
+    return timeline;
+  };
+  assert.ok(announced(5, false).complete);
+  assert.ok(!announced(5, true).complete);
+  const torn = announced(10, false);
+  assert.ok(!torn.complete);
+  torn.closed = true;
+  assert.ok(torn.complete);
+  assert.equal(torn.arrived, 0.5);
+  const live = announced(5, true);
+  live.append({ type: "end", t: 9, interrupted: false });
+  assert.ok(live.complete);
 });
 
 test("time does not run backwards", () => {

@@ -117,6 +117,8 @@ export interface View {
   travel: number;
   lift: number;
   T_world_camera: Pose;
+  /** From this view on; null: as before, at first that of the robot. */
+  camera: Camera | null;
   kind: string;
   predicted: number | null;
   realised: number | null;
@@ -176,6 +178,7 @@ export interface Plan {
   nodes: GraphNode[];
   edges: Int32Array; // pairs
   goneEdges: Int32Array; // pairs
+  goneNodes: Int32Array; // ids
   path: number[];
   at: number;
   visited: number[];
@@ -222,7 +225,7 @@ export interface Fruit {
 
 export interface Fruits {
   type: "fruits";
-  view: number;
+  view: number; // −1: of none
   t: number;
   changed: Fruit[];
   gone: number[];

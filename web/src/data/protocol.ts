@@ -13,7 +13,7 @@ import type {
   View,
 } from "./messages.ts";
 import { Octets } from "./octets.ts";
-import { readRobot, readTruth } from "./still_messages.ts";
+import { readCamera, readRobot, readTruth } from "./still_messages.ts";
 
 /** The protocol this page reads. */
 export const kProtocol = 1;
@@ -76,7 +76,7 @@ const kReaders: Record<string, (f: Fields, o: Octets) => Message> = {
   }),
   fruits: (f) => ({
     type: "fruits",
-    view: f.count("view"),
+    view: f.integer("view"),
     t: f.number("t_s"),
     changed: f.listOr("changed").map(readFruit),
     gone: f.numbersOr("gone", []),
@@ -162,6 +162,7 @@ function readView(f: Fields): View {
     travel: f.numberOr("travel", 0),
     lift: f.numberOr("lift", 0),
     T_world_camera: f.pose("T_world_camera"),
+    camera: f.has("camera") ? readCamera(f.object("camera")) : null,
     kind: f.textOr("kind", "none"),
     predicted: f.numberOr("predicted", null),
     realised: f.numberOr("realised", null),
@@ -210,6 +211,7 @@ function readPlan(f: Fields, o: Octets): Plan {
     nodes,
     edges: o.int32(2 * f.countOr("edges", 0)),
     goneEdges: o.int32(2 * f.countOr("gone_edges", 0)),
+    goneNodes: o.int32(f.countOr("gone_views", 0)),
     path: f.numbersOr("path", []),
     at: f.numberOr("at", -1),
     visited: f.numbersOr("visited", []),

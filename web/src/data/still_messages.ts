@@ -1,32 +1,37 @@
 import type { Fields } from "./fields.ts";
-import type { Link, Robot, Shape, Truth } from "./messages.ts";
+import type { Camera, Link, Robot, Shape, Truth } from "./messages.ts";
 import type { Octets } from "./octets.ts";
 
-// The messages that come once.
+// The messages that come once, and what others share with them.
 
 /** The robot's links and their shapes. */
 export function readRobot(f: Fields, o: Octets): Robot {
   const links = f.list("links");
   const vertices = o.float32(3 * f.countOr("vertices", 0));
   const triangles = o.uint32(o.left >> 2);
-  const camera = f.object("camera");
   const robot: Robot = {
     type: "robot",
     links: links.map((l, i) => readLink(l, i, vertices, triangles)),
     T_world_root: f.pose("T_world_root"),
     cameraLink: f.count("camera_link"),
-    camera: {
-      width: camera.count("width"),
-      height: camera.count("height"),
-      fx: camera.number("fx"),
-      fy: camera.number("fy"),
-      cx: camera.number("cx"),
-      cy: camera.number("cy"),
-    },
+    camera: readCamera(f.object("camera")),
   };
   if (robot.cameraLink >= links.length) throw f.wrong("camera_link", "no such link");
-  if (!(robot.camera.fx > 0 && robot.camera.fy > 0)) throw f.wrong("camera", "no focal length");
   return robot;
+}
+
+/** A camera's pixels and focal lengths. */
+export function readCamera(f: Fields): Camera {
+  const camera = {
+    width: f.count("width"),
+    height: f.count("height"),
+    fx: f.number("fx"),
+    fy: f.number("fy"),
+    cx: f.number("cx"),
+    cy: f.number("cy"),
+  };
+  if (!(camera.fx > 0 && camera.fy > 0)) throw f.wrong("fx", "no focal length");
+  return camera;
 }
 
 function readLink(f: Fields, i: number, vertices: Float32Array, triangles: Uint32Array): Link {

@@ -3,8 +3,10 @@ import { History } from "./history.ts";
 import { Tracks } from "./tracks.ts";
 import { upperBound } from "./search.ts";
 import type {
+  Camera,
   End,
   Fruit,
+  Fruits,
   GraphNode,
   Hello,
   Log,
@@ -75,6 +77,8 @@ export class Timeline {
   readonly visited = new History<true>();
   /** Frames that came, those that could not be read too. */
   taken = 0;
+  /** The server said that nothing more comes, whatever was announced. */
+  closed = false;
   /** Grows with everything that is appended. */
   changes = 0;
   private readonly times: number[] = [];
@@ -89,6 +93,12 @@ export class Timeline {
   /** The share of what is there already that has come, 0 … 1. */
   get arrived(): number {
     return this.reader.frames > 0 ? Math.min(1, this.taken / this.reader.frames) : 1;
+  }
+
+  /** Nothing more is to come. */
+  get complete(): boolean {
+    const all = this.hello !== null && !this.reader.live && this.arrived === 1;
+    return this.end !== null || this.closed || all;
   }
 
   /** How far the run can be played. */
@@ -111,6 +121,11 @@ export class Timeline {
     const guess = this.views[number];
     if (guess?.view === number) return guess;
     return this.views.find((v) => v.view === number) ?? null;
+  }
+
+  /** What a view was taken with. */
+  cameraOf(view: View | null): Camera | null {
+    return view?.camera ?? this.robot?.camera ?? null;
   }
 
   segmentAt(t: number): Segment | null {
@@ -155,9 +170,7 @@ export class Timeline {
         this.tell(t, "info", `The trolley drives to ${message.travel.toFixed(2)} m, the lift to ${message.lift.toFixed(2)} m.`);
         break;
       case "view":
-        this.views.push(message);
-        this.viewTimes.push(t);
-        this.tracks.addView(message);
+        this.addView(t, message);
         break;
       case "picture":
         this.addPicture(message);
@@ -182,15 +195,7 @@ export class Timeline {
         if (message.plantContact) this.tell(t, "notice", "A motion touched a plant.");
         break;
       case "fruits":
-        for (const fruit of message.changed) {
-          if (!this.fruits.last(fruit.id)) this.tell(t, "info", `Fruit ${fruit.id} found in view ${message.view}.`);
-          this.fruits.set(step, fruit.id, fruit);
-        }
-        for (const id of message.gone) {
-          this.tell(t, "info", `Fruit ${id} is none, or part of another.`);
-          this.fruits.set(step, id, undefined);
-        }
-        this.fruitsOfView.set(message.view, message.changed);
+        this.addFruits(step, t, message);
         break;
       case "log":
         this.tell(t, level(message), message.text);
@@ -213,6 +218,28 @@ export class Timeline {
     this.eventTimes.push(t);
   }
 
+  private addView(t: number, message: View): void {
+    const camera = message.camera ?? this.views.at(-1)?.camera ?? null;
+    this.views.push(camera === message.camera ? message : { ...message, camera });
+    this.viewTimes.push(t);
+    this.tracks.addView(message);
+  }
+
+  /** A view may have more than one message: the mission ends with what all views make of a fruit. */
+  private addFruits(step: number, t: number, { view, changed, gone }: Fruits): void {
+    for (const fruit of changed) {
+      if (!this.fruits.last(fruit.id)) this.tell(t, "info", `Fruit ${fruit.id} found in view ${view}.`);
+      this.fruits.set(step, fruit.id, fruit);
+    }
+    for (const id of gone) {
+      this.tell(t, "info", `Fruit ${id} is none, or part of another.`);
+      this.fruits.set(step, id, undefined);
+    }
+    const again = new Set(changed.map((f) => f.id));
+    const others = (this.fruitsOfView.get(view) ?? []).filter((f) => !again.has(f.id));
+    this.fruitsOfView.set(view, [...others, ...changed]);
+  }
+
   private addPicture(picture: Picture): void {
     let of = this.pictures.get(picture.view);
     if (!of) this.pictures.set(picture.view, (of = {}));
@@ -222,6 +249,8 @@ export class Timeline {
 
   private addPlan(step: number, plan: Plan): void {
     if (plan.fresh) for (const all of [this.nodes, this.edges, this.visited]) all.clear(step);
+    for (const id of plan.goneNodes)
+      for (const of of [this.nodes, this.visited]) of.set(step, id, undefined);
     for (const node of plan.nodes) this.nodes.set(step, node.id, node);
     forPairs(plan.goneEdges, (a, b) => this.edges.set(step, edgeKey(a, b), undefined));
     forPairs(plan.edges, (a, b) => this.edges.set(step, edgeKey(a, b), true));
@@ -229,7 +258,7 @@ export class Timeline {
       if (this.visited.last(id) !== true) this.visited.set(step, id, true);
     // What the histories hold need not be kept twice.
     const none = new Int32Array(0);
-    this.plans.push({ step, value: { ...plan, nodes: [], edges: none, goneEdges: none } });
+    this.plans.push({ step, value: { ...plan, nodes: [], edges: none, goneEdges: none, goneNodes: none } });
   }
 }
 

@@ -1,10 +1,18 @@
 import type { View } from "../data/messages.ts";
+import type { Timeline } from "../data/timeline.ts";
 import type { Actions, Moment, Selection } from "../moment.ts";
 import { depthPicture, detectionOverlay, paintLayers } from "../pictures/paint.ts";
 import { depthGradient } from "../pictures/false_color.ts";
 import type { PictureStore } from "../pictures/picture_store.ts";
 import { kindName, shortClock } from "../ui/format.ts";
 import { el, setText } from "../ui/dom.ts";
+import { same } from "../ui/same.ts";
+
+/** What the pictures of a view are drawn from: differs where they must be drawn anew. */
+export function picturesDrawn(timeline: Timeline | null, view: number | null, overlay: boolean): unknown[] {
+  const { color, depth, fruit } = (view === null ? null : timeline?.pictures.get(view)) ?? {};
+  return [timeline, view, overlay, color, depth, fruit];
+}
 
 /** A pair of pictures of one view: colour with the detection over it, and depth with its scale. */
 export class PicturePair {
@@ -17,7 +25,7 @@ export class PicturePair {
   private readonly near = el("span");
   private readonly far = el("span");
   private readonly none = el("p", { class: "none" }, "No picture.");
-  private shown = "";
+  private shown: unknown[] = [];
   private busy = false;
   private wanted: number | null = null;
 
@@ -45,12 +53,12 @@ export class PicturePair {
     if (!this.busy) void this.draw();
   }
 
-  /** One at a time; the newest wish wins. */
+  /** One at a time; the newest wish wins, and the newest run. */
   private async draw(): Promise<void> {
     const view = this.wanted;
+    const as = picturesDrawn(this.store.timeline, view, this.overlay);
+    if (same(as, this.shown)) return;
     const pictures = view === null ? undefined : this.store.timeline?.pictures.get(view);
-    const as = `${view} ${this.overlay} ${Object.keys(pictures ?? {}).join()}`;
-    if (as === this.shown) return;
     this.busy = true;
     try {
       const at = view ?? -1;
@@ -65,7 +73,7 @@ export class PicturePair {
     } finally {
       this.busy = false;
     }
-    if (this.wanted !== view) void this.draw();
+    void this.draw();
   }
 }
 

@@ -6,18 +6,23 @@ import type { PictureStore } from "../pictures/picture_store.ts";
 import { clock, kindName, percent, seconds, whole } from "../ui/format.ts";
 import { el, fill, setText } from "../ui/dom.ts";
 import { icon } from "../ui/icons.ts";
+import { same } from "../ui/same.ts";
 import { swatch } from "./fruit_list.ts";
 import { outlines } from "./outline.ts";
 
 /** Pictures of a fruit that are shown at most, evenly among all that saw it. */
 const kThumbs = 12;
 
+const kNone: Fruit[] = [];
+
 /** What was picked out: a view, or a fruit. Takes the place of the tabs while it is there. */
 export class Detail {
   readonly element: HTMLElement;
   private readonly title = el("h2");
   private readonly body = el("div", { class: "detail-body" });
-  private shownAs = "";
+  private shownAs: unknown[] = [];
+  private thumbs = el("div", { class: "thumbs" });
+  private thumbsOf: unknown[] = [];
   private asked = 0;
 
   constructor(
@@ -41,22 +46,22 @@ export class Detail {
     this.element.hidden = selection === null;
     if (selection?.is === "view") this.showView(moment.timeline, selection.view);
     else if (selection?.is === "fruit") this.showFruit(moment, selection.id);
-    else this.shownAs = "";
+    else this.shownAs = [];
   }
 
   private showView(timeline: Timeline, number: number): void {
     const view = timeline.view(number);
-    const as = `view ${number} ${Object.keys(timeline.pictures.get(number) ?? {}).length} ${view !== null}`;
-    if (as === this.shownAs) return;
+    const index = view ? timeline.views.indexOf(view) : -1;
+    const changed = timeline.fruitsOfView.get(number) ?? kNone;
+    const as = [timeline, number, view, timeline.views[index + 1], changed];
+    if (same(as, this.shownAs)) return;
     this.shownAs = as;
     setText(this.title, `View ${number}`);
     if (!view) return fill(this.body, el("p", { class: "none" }, "There is no such view."));
-    const index = timeline.views.indexOf(view);
     const go = (by: number, name: string) => {
       const other = timeline.views[index + by];
       return el("button", { class: "plain", disabled: !other, on: { click: () => other && this.actions.selectView(other.view) } }, name);
     };
-    const changed = timeline.fruitsOfView.get(number) ?? [];
     fill(
       this.body,
       el("div", { class: "buttons" }, go(-1, "Earlier"), go(1, "Later"), this.lookButton(), el("button", { class: "plain", on: { click: () => this.actions.enlarge(number) } }, "Large pictures")),
@@ -76,13 +81,16 @@ export class Detail {
 
   private showFruit({ timeline, step, t, view }: Moment, id: number): void {
     const fruit = timeline.fruits.at(id, step);
-    const as = `fruit ${id} ${fruit?.last} ${fruit?.points} ${fruit?.volume} ${view?.view}`;
-    if (as === this.shownAs) return;
+    const as = [timeline, id, fruit, view];
+    if (same(as, this.shownAs)) return;
     this.shownAs = as;
     setText(this.title, `Fruit ${id}`);
     if (!fruit) return fill(this.body, el("p", { class: "none" }, "Not known at this time."));
-    const old = this.body.querySelector(".thumbs");
-    const thumbs = old instanceof HTMLElement && old.dataset.fruit === String(id) ? old : el("div", { class: "thumbs", "data-fruit": id });
+    if (!same(this.thumbsOf, [timeline, id])) {
+      this.thumbsOf = [timeline, id];
+      this.thumbs = el("div", { class: "thumbs" });
+    }
+    const { thumbs } = this;
     const heading = el("h3", {}, "Pictures that saw it");
     fill(this.body, el("div", { class: "buttons" }, this.lookButton()), outlines(fruit), fruitFigures(fruit), heading, thumbs);
     void this.findPictures(timeline, fruit, t, thumbs, heading);
@@ -102,7 +110,7 @@ export class Detail {
   private async thumb(timeline: Timeline, sighting: Sighting): Promise<HTMLElement> {
     const canvas = el("canvas", { width: 96, height: 96 });
     const image = await this.store.color(sighting.view.view);
-    const camera = timeline.robot?.camera;
+    const camera = timeline.cameraOf(sighting.view);
     const context = canvas.getContext("2d");
     if (image && camera && context) {
       const scale = image.width / camera.width;

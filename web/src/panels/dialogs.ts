@@ -63,4 +63,8 @@ export class PictureDialog {
     this.pair.show(number);
     if (!this.element.open) this.element.showModal();
   }
+
+  close(): void {
+    this.element.close();
+  }
 }

@@ -4,6 +4,7 @@ import type { Actions, Moment } from "../moment.ts";
 import { percent } from "../ui/format.ts";
 import { el, fill } from "../ui/dom.ts";
 import { Rows } from "../ui/rows.ts";
+import { same } from "../ui/same.ts";
 
 export function swatch(fruit: Fruit): HTMLElement {
   const patch = el("i", { class: "swatch" });
@@ -16,7 +17,7 @@ export class FruitList {
   readonly element: HTMLElement;
   private readonly rows: Rows<Fruit>;
   private readonly none = el("p", { class: "none" }, "No fruit yet.");
-  private shownAs = -2;
+  private shownAs: unknown[] = [];
 
   constructor(actions: Actions) {
     this.rows = new Rows<Fruit>(
@@ -37,11 +38,11 @@ export class FruitList {
 
   update({ timeline, step }: Moment): void {
     if (this.element.hidden) return;
-    const as = timeline.fruits.lastChange(step);
+    const as = [timeline, timeline.fruits.lastChange(step)];
     const fruits = [...timeline.fruits.entriesAt(step)].map(([, fruit]) => fruit);
     fruits.sort((a, b) => a.id - b.id);
     this.none.hidden = fruits.length > 0;
-    this.rows.set(fruits, -1, as !== this.shownAs);
+    this.rows.set(fruits, -1, !same(as, this.shownAs));
     this.shownAs = as;
   }
 

@@ -5,6 +5,7 @@ import type { Actions, Moment } from "../moment.ts";
 import type { Palette, Theme } from "../theme.ts";
 import { brief, shortClock } from "../ui/format.ts";
 import { el, setText } from "../ui/dom.ts";
+import { same } from "../ui/same.ts";
 
 type Series = (number | null)[];
 
@@ -123,7 +124,7 @@ export class Plots {
   readonly element: HTMLElement;
   private readonly fruits: TimePlot;
   private readonly gain: TimePlot;
-  private shownAs = "";
+  private shownAs: unknown[] = [];
   private timeline: Timeline | null = null;
 
   constructor(actions: Actions, theme: Theme) {
@@ -166,8 +167,8 @@ export class Plots {
     const views = timeline.views;
     const end = timeline.duration;
     const counted = timeline.truth?.fruits.filter((f) => f.counted).length ?? null;
-    const as = `${views.length} ${views[0]?.t} ${end.toFixed(1)} ${counted}`;
-    if (as !== this.shownAs) {
+    const as = [timeline, views.length, end.toFixed(1), counted];
+    if (!same(as, this.shownAs)) {
       this.shownAs = as;
       const x = views.map((v) => v.t);
       // A last point, so that the line reaches the newest moment.

@@ -3,6 +3,7 @@ import type { Moment } from "../moment.ts";
 import { kindColor, type Theme } from "../theme.ts";
 import { clock } from "../ui/format.ts";
 import { el, fitCanvas, setText } from "../ui/dom.ts";
+import { same } from "../ui/same.ts";
 
 /** The run as a line: segments, views by kind, and where the page is. Drag or click to go there. */
 export class Scrub {
@@ -11,7 +12,7 @@ export class Scrub {
   private readonly head = el("i", { class: "head" });
   private readonly tip = el("span", { class: "tip", hidden: true });
   private timeline: Timeline | null = null;
-  private drawn = "";
+  private drawn: unknown[] = [];
 
   constructor(
     private readonly theme: Theme,
@@ -33,8 +34,8 @@ export class Scrub {
 
   update({ timeline, t, segment }: Moment): void {
     this.timeline = timeline;
-    const as = `${timeline.duration.toFixed(1)} ${timeline.views.length} ${timeline.segments.length}`;
-    if (as !== this.drawn) {
+    const as = [timeline, timeline.duration.toFixed(1), timeline.views.length, timeline.segments.length];
+    if (!same(as, this.drawn)) {
       this.drawn = as;
       this.draw();
     }
@@ -49,7 +50,7 @@ export class Scrub {
   }
 
   private redraw(): void {
-    this.drawn = "";
+    this.drawn = [];
     this.draw();
   }
 

@@ -2,6 +2,7 @@ import { upperBound } from "../data/search.ts";
 import type { Moment } from "../moment.ts";
 import { seconds } from "../ui/format.ts";
 import { el, fill, setText } from "../ui/dom.ts";
+import { same } from "../ui/same.ts";
 
 /** How many kinds of computation are named. */
 const kNamed = 7;
@@ -13,7 +14,7 @@ export class WorkPanel {
   private readonly legend = el("p", { class: "legend" });
   private readonly bars = el("div", { class: "bars" });
   private readonly note = el("p", { class: "hint" }, "Computation by kind comes after each segment.");
-  private shownAs = "";
+  private shownAs: unknown[] = [];
 
   constructor() {
     this.element = el(
@@ -30,8 +31,8 @@ export class WorkPanel {
   update({ timeline, t, step }: Moment): void {
     const count = upperBound(timeline.viewTimes, t);
     const work = timeline.workAt(step);
-    const as = `${count} ${work.length} ${work[0]?.seconds} ${work.at(-1)?.seconds}`;
-    if (as === this.shownAs || this.element.closest("[hidden]")) return;
+    const as = [timeline, count, work[0]];
+    if (same(as, this.shownAs) || this.element.closest("[hidden]")) return;
     this.shownAs = as;
     let [moving, planning] = [0, 0];
     for (const view of timeline.views.slice(0, count)) {

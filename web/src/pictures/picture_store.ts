@@ -17,6 +17,13 @@ export class PictureStore {
   private readonly colors = new Map<Picture, Promise<ImageBitmap | null>>();
   private readonly greys = new Map<Picture, Promise<Grey | null>>();
 
+  /** Pictures are those of this run from now on. */
+  begin(timeline: Timeline): void {
+    this.timeline = timeline;
+    this.colors.clear();
+    this.greys.clear();
+  }
+
   /** What the camera saw in a view; null: there is no picture, or it is damaged. */
   color(view: number): Promise<ImageBitmap | null> {
     const picture = this.timeline?.pictures.get(view)?.color;

@@ -29,16 +29,15 @@ export function inFrustum(camera: Camera, view: View, fruit: Fruit): Sighting | 
 /** The views up to t in whose picture the fruit was seen: fruit pixels there, as far away as it is. */
 export async function sightings(
   timeline: Timeline,
-  store: PictureStore,
+  store: Pick<PictureStore, "fruit" | "depth">,
   fruit: Fruit,
   t: number,
 ): Promise<Sighting[]> {
-  const camera = timeline.robot?.camera;
-  if (!camera) return [];
   const found: Sighting[] = [];
   for (const view of timeline.views) {
     if (view.t > t) break;
-    const sighting = inFrustum(camera, view, fruit);
+    const camera = timeline.cameraOf(view);
+    const sighting = camera && inFrustum(camera, view, fruit);
     if (!sighting) continue;
     const [mask, depth] = await Promise.all([store.fruit(view.view), store.depth(view.view)]);
     const meta = timeline.pictures.get(view.view)?.depth;

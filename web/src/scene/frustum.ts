@@ -32,6 +32,7 @@ export class Frustum {
   readonly group = new THREE.Group();
   private readonly lines: THREE.LineSegments;
   private readonly material = new THREE.LineBasicMaterial();
+  private camera: Camera | null = null;
 
   /** The base is so far from the camera. */
   constructor(private readonly depth: number) {
@@ -41,11 +42,19 @@ export class Frustum {
   }
 
   set(camera: Camera): void {
+    this.lines.visible = true;
+    if (camera === this.camera) return;
+    this.camera = camera;
     const corners = cornersAt(camera, this.depth);
     const points: number[] = [];
     corners.forEach((corner, i) => points.push(0, 0, 0, ...corner, ...corner, ...corners[(i + 1) % 4]));
+    this.lines.geometry.dispose();
     this.lines.geometry.setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
     this.lines.geometry.computeBoundingSphere();
+  }
+
+  clear(): void {
+    this.lines.visible = false;
   }
 
   move(T_world_camera: Pose): void {
@@ -64,6 +73,7 @@ export class PictureSheet {
   private readonly mesh = new THREE.Mesh(new THREE.BufferGeometry(), this.material);
   private readonly canvas = document.createElement("canvas");
   private readonly texture = new THREE.CanvasTexture(this.canvas);
+  private camera: Camera | null = null;
 
   /** So far before the camera. */
   constructor(private readonly depth: number) {
@@ -76,18 +86,24 @@ export class PictureSheet {
     this.group.add(this.mesh);
   }
 
-  set(camera: Camera): void {
+  private set(camera: Camera): void {
+    if (camera === this.camera) return;
+    this.camera = camera;
     const { geometry } = this.mesh;
+    geometry.dispose();
     geometry.setAttribute("position", new THREE.Float32BufferAttribute(cornersAt(camera, this.depth).flat(), 3));
     geometry.setAttribute("uv", new THREE.Float32BufferAttribute([0, 1, 1, 1, 1, 0, 0, 0], 2));
     geometry.setIndex([0, 1, 2, 0, 2, 3]);
     geometry.computeBoundingSphere();
   }
 
-  /** Null: no picture. */
-  show(image: ImageBitmap | null, T_world_camera: Pose): void {
-    this.mesh.visible = image !== null;
-    if (!image) return;
+  clear(): void {
+    this.mesh.visible = false;
+  }
+
+  show(image: ImageBitmap, camera: Camera, T_world_camera: Pose): void {
+    this.mesh.visible = true;
+    this.set(camera);
     if (this.canvas.width !== image.width || this.canvas.height !== image.height) {
       this.canvas.width = image.width;
       this.canvas.height = image.height;

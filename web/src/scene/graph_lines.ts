@@ -77,6 +77,9 @@ void main() {
 
   reset(): void {
     this.shownAs = "";
+    this.nodes = [];
+    this.last = null;
+    for (const part of [this.edges, this.ticks, this.dots]) fill(part, {});
   }
 
   private make(timeline: Timeline, step: number): void {

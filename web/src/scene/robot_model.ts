@@ -14,9 +14,8 @@ export class RobotModel {
   private readonly lens = new THREE.MeshLambertMaterial({ color: 0x20262a });
 
   set(robot: Robot): void {
+    this.clear();
     this.robot = robot;
-    for (const link of this.links) for (const child of link.children) (child as THREE.Mesh).geometry.dispose();
-    this.group.clear();
     this.links = robot.links.map((link, i) => {
       const group = new THREE.Group();
       group.matrixAutoUpdate = false;
@@ -25,6 +24,13 @@ export class RobotModel {
       this.group.add(group);
       return group;
     });
+  }
+
+  clear(): void {
+    for (const link of this.links) for (const child of link.children) (child as THREE.Mesh).geometry.dispose();
+    this.group.clear();
+    this.links = [];
+    this.robot = null;
   }
 
   paint(palette: Palette): void {

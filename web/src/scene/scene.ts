@@ -31,6 +31,7 @@ export class Scene {
   }
 
   load(timeline: Timeline): void {
+    this.moment = null;
     this.world.load(timeline);
   }
 
@@ -61,8 +62,7 @@ export class Scene {
 
   /** What the camera saw in a view; null: there is no picture. */
   setPicture(image: ImageBitmap | null, view: View | null): void {
-    if (view) this.world.sheet.show(image, view.T_world_camera);
-    this.world.stage.ask();
+    this.world.hangPicture(view && image, view);
   }
 }
 

@@ -39,7 +39,8 @@ export class World {
   private timeline: Timeline | null = null;
   private known = { robot: false, truth: false, segments: -1 };
   private follow = false;
-  private framed = false;
+  /** The mission the eye was brought to. */
+  private framed: string | null = null;
 
   constructor(
     readonly stage: Stage,
@@ -66,6 +67,8 @@ export class World {
     this.map.reset(timeline.hello?.resolution ?? 0.01);
     this.targets.reset(timeline.hello?.resolution ?? 0.01);
     for (const part of [this.fruits, this.graph, this.marks, this.paths]) part.reset();
+    for (const part of [this.robot, this.truth, this.trueFruits, this.frustum, this.sheet]) part.clear();
+    this.chooseView(null);
   }
 
   /** Shows the run after this step, the robot as it stands at t. */
@@ -84,6 +87,7 @@ export class World {
       const at = timeline.tracks.at(t);
       this.robot.move(at);
       const T = cameraPose(timeline.robot, at);
+      this.frustum.set(timeline.cameraOf(timeline.viewAt(t)) ?? timeline.robot.camera);
       this.frustum.move(T);
       if (this.follow) {
         const { position, target } = shoulder(T);
@@ -96,8 +100,20 @@ export class World {
 
   /** Marks a view, or none. */
   chooseView(view: View | null): void {
-    this.chosenFrustum.group.visible = view !== null;
-    if (view) this.chosenFrustum.move(view.T_world_camera);
+    const camera = view && this.timeline?.cameraOf(view);
+    this.chosenFrustum.group.visible = Boolean(camera);
+    if (camera) {
+      this.chosenFrustum.set(camera);
+      this.chosenFrustum.move(view.T_world_camera);
+    }
+    this.stage.ask();
+  }
+
+  /** Hangs a picture up where it was taken; null: none. */
+  hangPicture(image: ImageBitmap | null, view: View | null): void {
+    const camera = view && this.timeline?.cameraOf(view);
+    if (image && camera) this.sheet.show(image, camera, view.T_world_camera);
+    else this.sheet.clear();
     this.stage.ask();
   }
 
@@ -131,9 +147,6 @@ export class World {
   private takeStill(timeline: Timeline): void {
     if (timeline.robot && !this.known.robot) {
       this.robot.set(timeline.robot);
-      this.frustum.set(timeline.robot.camera);
-      this.chosenFrustum.set(timeline.robot.camera);
-      this.sheet.set(timeline.robot.camera);
       this.known.robot = true;
     }
     if (timeline.truth && !this.known.truth) {
@@ -144,8 +157,9 @@ export class World {
     if (timeline.segments.length !== this.known.segments) {
       this.known.segments = timeline.segments.length;
       this.ground.cover(this.bounds(true, 0));
-      if (!this.framed && timeline.robot && timeline.segments.length > 0) {
-        this.framed = true;
+      const mission = timeline.hello?.mission ?? "";
+      if (this.framed !== mission && timeline.robot && timeline.segments.length > 0) {
+        this.framed = mission;
         this.frame(false, timeline.newest);
       }
     }
