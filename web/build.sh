@@ -6,14 +6,17 @@ web=$(cd "$(dirname "$0")" && pwd)
 page=$1
 folder=$2
 mkdir -p "$folder"
+leave_out() {
+  echo "The live view is left out: $1" >&2
+  echo "To try again: rm $page" >&2
+  : >"$page"
+  exit 0
+}
+[ "$(node -p 'process.versions.node.split(".")[0]' 2>/dev/null || echo 0)" -ge 18 ] || leave_out "its page needs Node 18 or newer"
 if ! cmp -s "$web/package-lock.json" "$folder/fetched"; then
   cp "$web/package.json" "$web/package-lock.json" "$folder/"
-  if ! (cd "$folder" && npm ci --omit=dev --ignore-scripts --no-audit --no-fund --loglevel=error >npm.log 2>&1); then
-    echo "The live view is left out: npm could not fetch what its page is made with ($folder/npm.log)." >&2
-    echo "To try again: touch web/build.sh" >&2
-    : >"$page"
-    exit 0
-  fi
+  (cd "$folder" && npm ci --omit=dev --ignore-scripts --no-audit --no-fund --loglevel=error --fetch-retries=1 --fetch-timeout=20000 >npm.log 2>&1) ||
+    leave_out "npm could not fetch what its page is made with ($folder/npm.log)"
   cp "$web/package-lock.json" "$folder/fetched"
 fi
 exec node "$web/build.mjs" "$page" "$folder/node_modules" >/dev/null

@@ -88,7 +88,7 @@ void doctor(const DoctorArguments& arguments) {
                         simd_level_name(best_simd_level()));
   line("memory", memory_text());
   line("live view", view_page().empty()
-                        ? "not built in: install Node (Debian: nodejs and npm) and build again"
+                        ? "not built in: that takes Node 18 (Debian: npm) and the npm registry"
                         : "built in");
   line("files", shipped_data().string());
   line("missions", joined(shipped_missions()));

@@ -28,31 +28,49 @@ RunStory story_of(Run& run) {
   return story;
 }
 
+std::shared_ptr<ReplayLog> new_unnamed_log() {
+  return value_or_stop(ReplayLog::create_unnamed(), kFailed);
+}
+
 std::shared_ptr<ReplayLog> new_log(const Run& run, bool keep) {
-  auto log = keep ? ReplayLog::create(run.out() / "replay") : ReplayLog::create_unnamed();
-  return value_or_stop(std::move(log), kFailed);
+  if (!keep) return new_unnamed_log();
+  return value_or_stop(ReplayLog::create(run.out() / "replay"), kFailed);
+}
+
+/// Before the replay of an earlier run there is overwritten.
+void need_free_port(const ViewArguments& arguments) {
+  ViewServerOptions options;
+  options.address = arguments.address;
+  options.port = arguments.port;
+  value_or_stop(ViewServer::start(options, new_unnamed_log()), kBadInput);
 }
 
 }  // namespace
 
 void need_view_page() {
   if (!view_page().empty()) return;
-  stop_with(kBadInput, {"this program was built without its page: install Node (Debian: nodejs and "
-                        "npm) and build it again"});
+  stop_with(kBadInput,
+            {"this program was built without its page: without Node 18 (Debian: npm), or where npm "
+             "reached no registry; build it again with both"});
 }
 
 LiveView::LiveView(Run& run, SteeringTogether& steering, const ViewArguments& arguments)
-    : pace_([&stop = catch_stop_signals()] { return stop.load(); }) {
-  if (arguments.view) need_view_page();
+    : pace_([this, &stop = catch_stop_signals()] { return stop || desk_.unread(); }) {
+  if (arguments.view) {
+    need_view_page();
+    need_free_port(arguments);
+  }
   if (!arguments.view && !arguments.replay) return;
   const std::shared_ptr<ReplayLog> log = new_log(run, arguments.replay);
-  auto frames = std::make_unique<RunFrames>(story_of(run), run.stage().robot().model,
+  RunStory story = story_of(run);
+  const bool simulated = story.simulated;
+  auto frames = std::make_unique<RunFrames>(std::move(story), run.stage().robot().model,
                                             run.stage().site().truth());
   run.watch(std::make_shared<ReplayWatcher>(std::move(frames), log),
             {.name = "the replay", .wait_in_simulated_time = true});
   if (!arguments.view) return;
+  if (simulated) steering.add(pace_);  // before the desk: what is said ends its waiting
   steering.add(desk_);
-  steering.add(pace_);
   ViewServerOptions options;
   options.address = arguments.address;
   options.port = arguments.port;
@@ -62,7 +80,7 @@ LiveView::LiveView(Run& run, SteeringTogether& steering, const ViewArguments& ar
   options.live = true;
   ViewControls controls;
   controls.steer = [this](SteeringWord::Kind word) { desk_.say({word, "page", ""}); };
-  controls.speed = [this](double factor) { pace_.set(factor); };
+  if (simulated) controls.speed = [this](double factor) { pace_.set(factor); };
   server_ = value_or_stop(ViewServer::start(options, log, std::move(controls)), kBadInput);
   std::fprintf(stderr, "canopeer: watch at %s\n", server_->link().c_str());
 }

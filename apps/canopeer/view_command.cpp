@@ -23,6 +23,9 @@ std::shared_ptr<ReplayLog> log_of(const std::filesystem::path& run) {
                                          "a campaign, or by an older canopeer"});
   }
   std::shared_ptr<ReplayLog> log = value_or_stop(ReplayLog::open(run / "replay"), kBadInput);
+  if (log->pieces() == 0) {
+    stop_with(kBadInput, {(run / "replay").string() + ": nothing in it is whole"});
+  }
   if (log->lost_bytes() > 0) {
     std::fprintf(stderr,
                  "canopeer: notice: the end of the replay is damaged; shown is what is whole\n");

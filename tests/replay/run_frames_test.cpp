@@ -74,7 +74,7 @@ struct Page {
   std::set<std::array<int, 3>> occupied;
   std::set<std::array<int, 3>> roi;
   std::set<std::array<int, 3>> targets[3];
-  std::set<int> views;
+  std::map<int, int> views;  // kinds by id
   std::set<std::pair<int, int>> edges;
   std::set<int> visited;
   std::map<int, Json> fruits;
@@ -115,7 +115,7 @@ struct Page {
         edges.clear();
         visited.clear();
       }
-      for (int v = 0; v < head.at("views"); ++v, at += 29) views.insert(load_number<int>(at));
+      for (int v = 0; v < head.at("views"); ++v, at += 29) views[load_number<int>(at)] = at[28];
       for (const char* list : {"edges", "gone_edges"}) {
         for (int e = 0; e < head.at(list); ++e, at += 8) {
           const std::pair<int, int> edge(load_number<int>(at), load_number<int>(at + 4));
@@ -125,6 +125,9 @@ struct Page {
             EXPECT_EQ(edges.erase(edge), 1U);
           }
         }
+      }
+      for (int v = 0; v < head.at("gone_views"); ++v, at += 4) {
+        EXPECT_EQ(views.erase(load_number<int>(at)), 1U);
       }
       for (const int id : head.at("visited")) EXPECT_TRUE(visited.insert(id).second);
     } else if (type == "fruits") {
@@ -166,11 +169,14 @@ TEST(RunFrames, APageCanPutTogetherMapTargetsPlanAndFruitsAtEveryMoment) {
       ASSERT_EQ(page.targets[2], voxels_of(change->targets->border));
     }
     if (const auto* planned = std::get_if<Planned>(&event)) {
-      std::set<int> views;
+      std::map<int, int> views;
       std::set<int> visited;
       std::set<std::pair<int, int>> edges;
       for (const auto& view : planned->sketch->views) {
-        views.insert(view.id);
+        views[view.id] = view.kind == TargetKind::roi        ? 1
+                         : view.kind == TargetKind::occupied ? 2
+                         : view.kind == TargetKind::border   ? 3
+                                                             : 0;
         if (view.visited) visited.insert(view.id);
       }
       for (const auto& edge : planned->sketch->edges) edges.emplace(edge.a, edge.b);

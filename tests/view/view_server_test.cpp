@@ -184,6 +184,18 @@ TEST_F(ViewServerTest, AReaderThatReadsNothingCostsNobodyAnything) {
   }
 }
 
+TEST_F(ViewServerTest, EndsWhileBrowsersLookOnAndAsk) {
+  Socket reader(connect());
+  ASSERT_FALSE(open(reader, "/socket"));
+  tcp::socket half = connect();
+  asio::write(half, asio::buffer(std::string("GET / HTTP/1.1\r\nHost: ")));
+  ASSERT_TRUE(log_->append({{"{\"type\":\"end\"}", ""}}));
+  server_.reset();
+  std::string last;
+  for (std::string frame = read(reader); frame != "closed"; frame = read(reader)) last = frame;
+  EXPECT_EQ(frame_type(last), "end");  // it got all that there was
+}
+
 TEST(ViewServer, APortThatIsTakenIsSaid) {
   const std::shared_ptr<ReplayLog> log = *ReplayLog::create_unnamed();
   ViewServerOptions options;

@@ -89,7 +89,13 @@ TriangleMesh capsule_mesh(double radius_m, double length_m) {
 }
 
 TriangleMesh plane_mesh(const Vec3& normal, double width_m, double height_m) {
-  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), normal);
+  // The least turn from z to the normal; any half turn where it points down.
+  const Vec3 n = normal.normalized();
+  const double twice_w = std::sqrt((1.0 + n.z()) * 2.0);
+  const Eigen::Quaterniond turn =
+      n.z() < -1.0 + 1e-12
+          ? Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0)
+          : Eigen::Quaterniond(twice_w / 2.0, -n.y() / twice_w, n.x() / twice_w, 0.0);
   TriangleMesh mesh;
   for (const auto& [x, y] : {std::array{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}) {
     mesh.vertices.emplace_back((turn * Vec3(x * width_m, y * height_m, 0.0)).cast<float>());

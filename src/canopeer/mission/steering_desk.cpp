@@ -7,6 +7,7 @@ namespace canopeer {
 void SteeringDesk::say(SteeringWord word) {
   const std::lock_guard<std::mutex> lock(mutex_);
   said_go_on_ = word.kind == SteeringWord::Kind::go_on;
+  unread_ = true;
   if (word.kind == SteeringWord::Kind::next_segment) {
     next_segment_ = std::move(word);
   } else if (word_.kind != SteeringWord::Kind::stop) {
@@ -14,8 +15,14 @@ void SteeringDesk::say(SteeringWord word) {
   }
 }
 
+bool SteeringDesk::unread() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return unread_;
+}
+
 SteeringWord SteeringDesk::ask(const SteeringPoint& point) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  unread_ = false;
   if (!point.needs_person.empty() && word_.kind < SteeringWord::Kind::pause) {
     word_ = {SteeringWord::Kind::wait_for_person, "arm", std::string(point.needs_person)};
   }

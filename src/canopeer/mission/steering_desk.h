@@ -15,14 +15,17 @@ namespace canopeer {
 class SteeringDesk : public Steering {
  public:
   void say(SteeringWord word);
+  /// Whether something was said that was not asked for yet.
+  [[nodiscard]] bool unread() const;
   [[nodiscard]] SteeringWord ask(const SteeringPoint& point) override;
   [[nodiscard]] bool reaches_person() const override { return true; }
   [[nodiscard]] bool person_said_go_on() override;
 
  private:
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   SteeringWord word_;  // all but next_segment
   bool said_go_on_ = false;
+  bool unread_ = false;
   std::optional<SteeringWord> next_segment_;
 };
 

@@ -93,6 +93,7 @@ struct ReplayLog::State {
   mutable std::mutex mutex;  // of what follows
   std::vector<Piece> pieces;
   std::size_t frames = 0;
+  std::mutex listener_mutex;
   std::function<void()> listener;
 
   State(int f, std::string n) : file(f), name(std::move(n)) {}
@@ -111,7 +112,10 @@ struct ReplayLog::State {
     Piece piece{at + kPieceHead, load_number<std::uint32_t>(head),
                 load_number<std::uint32_t>(head + 4), load_number<std::uint32_t>(head + 8),
                 load_number<std::uint32_t>(head + 12)};
-    if (piece.packed > size - piece.at || piece.unpacked > kMostUnpacked) return std::nullopt;
+    const bool empty = piece.packed == 0 || piece.unpacked == 0 || piece.frames == 0;
+    if (empty || piece.packed > size - piece.at || piece.unpacked > kMostUnpacked) {
+      return std::nullopt;
+    }
     return piece;
   }
   [[nodiscard]] Expected<std::string> unpacked(const Piece& piece) const {
@@ -127,7 +131,7 @@ struct ReplayLog::State {
     }
     return all;
   }
-  /// All whole pieces; the last ones are looked into, since a cut may lie within.
+  /// All whole pieces up to the first that is none: what comes later builds on it.
   Expected<void> index() {
     struct stat info {};
     if (::fstat(file, &info) != 0) return fail(system_error(name));
@@ -139,14 +143,13 @@ struct ReplayLog::State {
     }
     end = kReplayMagic.size();
     while (const auto piece = piece_head(end, size)) {
+      const auto all = unpacked(*piece);
+      const Expected<std::vector<std::string>> split_up =
+          all ? split(*all) : Expected<std::vector<std::string>>(tl::unexpected(all.error()));
+      if (!split_up || split_up->size() != piece->frames) break;
       pieces.push_back(*piece);
       frames += piece->frames;
       end = piece->at + piece->packed;
-    }
-    if (!pieces.empty() && !unpacked(pieces.back())) {
-      end = pieces.back().at - kPieceHead;
-      frames -= pieces.back().frames;
-      pieces.pop_back();
     }
     lost = size - end;
     return {};
@@ -200,14 +203,13 @@ Expected<void> ReplayLog::append(const std::vector<Frame>& frames) {
     append_number(bytes, number);
   if (!write_at(s.file, s.end, bytes + packed)) return fail(system_error(s.name));
   s.end = piece.at + piece.packed;
-  std::function<void()> listener;
   {
     const std::scoped_lock lock(s.mutex);
     s.pieces.push_back(piece);
     s.frames += frames.size();
-    listener = s.listener;
   }
-  if (listener) listener();
+  const std::scoped_lock lock(s.listener_mutex);
+  if (s.listener) s.listener();
   return {};
 }
 
@@ -236,7 +238,7 @@ Expected<std::vector<std::string>> ReplayLog::piece(std::size_t index) const {
 std::uint64_t ReplayLog::lost_bytes() const { return state_->lost; }
 
 void ReplayLog::on_append(std::function<void()> listener) {
-  const std::scoped_lock lock(state_->mutex);
+  const std::scoped_lock lock(state_->listener_mutex);
   state_->listener = std::move(listener);
 }
 

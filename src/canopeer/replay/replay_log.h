@@ -36,7 +36,8 @@ class ReplayLog {
   /// Where open() found damage or a cut: octets behind that were left out.
   [[nodiscard]] std::uint64_t lost_bytes() const;
 
-  /// Called after each append, in the thread that appends; empty: nobody.
+  /// Called after each append, in the thread that appends, and not any more once this has returned;
+  /// empty: nobody. It must not append.
   void on_append(std::function<void()> listener);
 
  private:

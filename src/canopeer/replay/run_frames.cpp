@@ -14,6 +14,15 @@ namespace canopeer {
 
 using namespace frames;
 
+namespace {
+
+bool same_pinhole(const CameraIntrinsics& a, const CameraIntrinsics& b) {
+  return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy &&
+         a.cx == b.cx && a.cy == b.cy;
+}
+
+}  // namespace
+
 struct RunFrames::State {
   RunStory story;
   JointLimits limits;
@@ -35,9 +44,13 @@ struct RunFrames::State {
     return {segment_frame(begun.segment, trolley(begun.segment.segment))};
   }
   std::vector<Frame> frames(const SegmentEnded&) const { return {}; }
-  std::vector<Frame> frames(const FrameTaken& taken) const {
+  std::vector<Frame> frames(const FrameTaken& taken) {
+    const CameraIntrinsics& camera = taken.frame->intrinsics;
+    const bool other = !same_pinhole(camera, story.camera);
+    story.camera = camera;
     std::vector<Frame> all = picture_frames(taken.view.view, *taken.frame, *taken.detection);
-    all.insert(all.begin(), view_frame(taken.view, trolley(taken.view.segment)));
+    all.insert(all.begin(),
+               view_frame(taken.view, trolley(taken.view.segment), other ? &camera : nullptr));
     return all;
   }
   std::vector<Frame> frames(const MapChanged& change) {

@@ -7,6 +7,7 @@ namespace canopeer {
 namespace {
 
 constexpr double kNap = 0.05;  // s, so that a change of pace is felt at once
+constexpr double kLate = 1.0;  // s
 
 }  // namespace
 
@@ -25,11 +26,18 @@ double Pace::ahead_s(double t_s) {
     from_s_ = t_s;
     from_ = now;
   }
-  return (t_s - from_s_) / factor_ - std::chrono::duration<double>(now - from_).count();
+  const double ahead =
+      (t_s - from_s_) / factor_ - std::chrono::duration<double>(now - from_).count();
+  if (ahead < -kLate) fresh_ = true;  // nor that of a slow machine
+  return ahead;
 }
 
 SteeringWord Pace::ask(const SteeringPoint& point) {
-  if (point.holding) return {};
+  if (point.holding) {
+    const std::scoped_lock lock(mutex_);
+    fresh_ = true;  // the time of a pause is not made up for
+    return {};
+  }
   for (double wait_s = ahead_s(point.t_s); wait_s > 0.0 && !give_up_(); wait_s = ahead_s(point.t_s))
     std::this_thread::sleep_for(std::chrono::duration<double>(std::min(wait_s, kNap)));
   return {};

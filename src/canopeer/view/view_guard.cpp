@@ -1,6 +1,7 @@
 #include "canopeer/view/view_guard.h"
 
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
 namespace canopeer {
@@ -19,6 +20,13 @@ std::string_view query_value(std::string_view target, std::string_view name) {
   return {};
 }
 
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower;
+}
+
 /// "192.168.1.5", not a name that somebody's DNS may bend.
 bool is_ipv4(std::string_view text) {
   return !text.empty() && text.find_first_not_of("0123456789.") == std::string_view::npos;
@@ -28,16 +36,18 @@ bool is_ipv4(std::string_view text) {
 
 std::string_view path_of(std::string_view target) { return target.substr(0, target.find('?')); }
 
-ViewGuard::ViewGuard(std::string address, std::uint16_t port, std::string host_name,
+ViewGuard::ViewGuard(std::string address, std::uint16_t port, std::string_view host_name,
                      std::string token)
     : address_(std::move(address)),
       port_(std::to_string(port)),
-      host_name_(std::move(host_name)),
+      host_name_(lower_case(host_name)),
       token_(std::move(token)) {}
 
 bool ViewGuard::loopback() const { return address_.starts_with("127.") || address_ == "::1"; }
 
-bool ViewGuard::knows_host(std::string_view host) const {
+bool ViewGuard::knows_host(std::string_view given) const {
+  const std::string lower = lower_case(given);
+  const std::string_view host = lower;
   const std::size_t colon = host.rfind(':');
   const bool bracketed = host.starts_with('[');
   std::string_view name = host;
@@ -46,10 +56,12 @@ bool ViewGuard::knows_host(std::string_view host) const {
     name = host.substr(0, colon);
     port = host.substr(colon + 1);
   }
+  if (port.empty() || port.find_first_not_of("0123456789") != std::string_view::npos) return false;
+  // A tunnel from another machine may end at another port there.
+  if (name == "localhost" || name == "[::1]" || name == "127.0.0.1") return true;
   if (port != port_) return false;
-  if (name == "localhost" || name == "[::1]" || name == "127.0.0.1" || name == address_)
-    return true;
-  return !loopback() && (is_ipv4(name) || bracketed || name == host_name_);
+  return name == address_ || (!loopback() && (is_ipv4(name) || bracketed || name == host_name_ ||
+                                              name == host_name_ + ".local"));
 }
 
 bool ViewGuard::knows_origin(std::optional<std::string_view> origin, std::string_view host) const {

@@ -13,7 +13,7 @@ namespace canopeer {
 class ViewGuard {
  public:
   /// `address` and `port`: where the server listens; `host_name`: this machine's.
-  ViewGuard(std::string address, std::uint16_t port, std::string host_name, std::string token);
+  ViewGuard(std::string address, std::uint16_t port, std::string_view host_name, std::string token);
 
   /// Whether "Host" names this server: an address, this machine's name, localhost.
   [[nodiscard]] bool knows_host(std::string_view host) const;

@@ -8,7 +8,7 @@
 #include <boost/beast.hpp>
 #include <chrono>
 #include <deque>
-#include <fstream>
+#include <future>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <random>
@@ -96,6 +96,12 @@ class Reader : public std::enable_shared_from_this<Reader> {
                         });
   }
 
+  /// Of what is there now.
+  [[nodiscard]] bool has_all() const {
+    if (!beast::get_lowest_layer(socket_).socket().is_open()) return true;
+    return !sending_ && waiting_.empty() && piece_ >= shared_.log->pieces();
+  }
+
   void close() {
     beast::error_code ignored;
     beast::get_lowest_layer(socket_).socket().close(ignored);
@@ -122,7 +128,10 @@ class Reader : public std::enable_shared_from_this<Reader> {
       // Who reads from the beginning gets all; who falls behind meanwhile has pictures left out.
       const bool hurry = caught_up_ && pieces - piece_ > kFarBehind;
       auto frames = shared_.log->piece(piece_++);
-      if (!frames) return false;
+      if (!frames) {
+        close();
+        return false;
+      }
       for (std::string& frame : *frames) {
         if (hurry && frame_type(frame) == "picture") {
           ++left_out_;
@@ -236,8 +245,10 @@ class Request : public std::enable_shared_from_this<Request> {
       return send(http::status::method_not_allowed, "text/plain", "Only GET.\n");
     }
     const std::string_view path = path_of(target);
-    if (path == "/")
-      return send(http::status::ok, "text/html; charset=utf-8", shared_.options.page);
+    if (path == "/") {
+      return send(http::status::ok, "text/html; charset=utf-8", shared_.options.page,
+                  "'unsafe-inline'");
+    }
     if (path == "/report.html") {
       if (auto report = read_file(shared_.options.report))
         return send(http::status::ok, "text/html; charset=utf-8", *report);
@@ -260,15 +271,18 @@ class Request : public std::enable_shared_from_this<Request> {
     reader->begin(parser_.get());
   }
 
-  void send(http::status status, const char* type, std::string_view body) {
+  void send(http::status status, const char* type, std::string_view body,
+            std::string_view scripts = "'none'") {
     auto response = std::make_shared<http::response<http::string_body>>(status, 11);
     response->set(http::field::content_type, type);
     response->set(http::field::cache_control, "no-store");
     response->set("X-Content-Type-Options", "nosniff");
     response->set("Referrer-Policy", "no-referrer");
-    response->set("Content-Security-Policy",
-                  "default-src 'self' data: blob: 'unsafe-inline'; connect-src 'self' ws:; "
-                  "frame-ancestors 'none'");
+    response->set(
+        "Content-Security-Policy",
+        "default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; script-src " +
+            std::string(scripts) + "; connect-src ws://" + field(http::field::host) +
+            "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
     response->keep_alive(false);
     response->body() = std::string(body);
     response->prepare_payload();
@@ -290,17 +304,19 @@ class Request : public std::enable_shared_from_this<Request> {
 }  // namespace
 
 struct ViewServer::State {
+  std::unique_ptr<Shared> shared;  // outlives the connections, which the context holds
   asio::io_context context{1};
   tcp::acceptor acceptor{context};
+  asio::steady_timer rest{context};
   std::vector<std::weak_ptr<Reader>> all_readers;
-  std::unique_ptr<Shared> shared;
   std::uint16_t port = 0;
   std::jthread thread;
 
   void accept() {
     acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
       if (error == asio::error::operation_aborted) return;
-      if (!error && shared->connections < kMostConnections) {
+      if (error) return accept_later();  // no more files, say
+      if (shared->connections < kMostConnections) {
         std::make_shared<Request>(std::move(socket), *shared, [this](const auto& reader) {
           std::erase_if(all_readers, [](const auto& one) { return one.expired(); });
           all_readers.push_back(reader);
@@ -308,6 +324,33 @@ struct ViewServer::State {
       }
       accept();
     });
+  }
+  void accept_later() {
+    rest.expires_after(std::chrono::milliseconds(100));
+    rest.async_wait([this](beast::error_code error) {
+      if (!error) accept();
+    });
+  }
+  /// What one connection throws ends that one; a robot may be in the middle of a motion.
+  void serve() {
+    while (!context.stopped()) {
+      try {
+        context.run();
+      } catch (const std::exception&) {
+        continue;
+      }
+    }
+  }
+  /// Asked from another thread.
+  bool all_have_all() {
+    std::promise<bool> answer;
+    asio::post(context, [this, &answer] {
+      answer.set_value(std::all_of(all_readers.begin(), all_readers.end(), [](const auto& one) {
+        const auto reader = one.lock();
+        return !reader || reader->has_all();
+      }));
+    });
+    return answer.get_future().get();
   }
   void pump_all() {
     for (const auto& one : all_readers) {
@@ -342,19 +385,24 @@ Expected<std::unique_ptr<ViewServer>> ViewServer::start(const ViewServerOptions&
   State* const s = state.get();
   s->shared->log->on_append([s] { asio::post(s->context, [s] { s->pump_all(); }); });
   s->accept();
-  s->thread = std::jthread([s] { s->context.run(); });
+  s->thread = std::jthread([s] { s->serve(); });
   return std::unique_ptr<ViewServer>(new ViewServer(std::move(state)));
 }
 
 ViewServer::~ViewServer() {
   state_->shared->log->on_append({});
+  // Who looks on gets the end of the run too, if it takes no longer than that.
+  for (int i = 0; i < 50 && !state_->all_have_all(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
   state_->context.stop();
   state_->thread.join();
 }
 
 std::string ViewServer::link() const {
   const std::string& address = state_->shared->options.address;
-  const std::string host = address == "0.0.0.0" ? host_name() : address;
+  const bool any = address == "0.0.0.0" || address == "::";
+  const bool v6 = !any && address.find(':') != std::string::npos;
+  const std::string host = any ? host_name() : v6 ? "[" + address + "]" : address;
   const std::string& token = state_->shared->options.token;
   return "http://" + host + ":" + std::to_string(state_->port) + "/" +
          (token.empty() ? "" : "?token=" + token);

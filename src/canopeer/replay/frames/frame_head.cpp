@@ -30,4 +30,9 @@ Json from(const Box& box) {
   return corners;
 }
 
+Json from(const CameraIntrinsics& camera) {
+  return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
+          {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
+}
+
 }  // namespace canopeer::frames

@@ -7,6 +7,7 @@
 
 #include "canopeer/geometry/pose.h"
 #include "canopeer/replay/frame.h"
+#include "canopeer/sensing/camera_intrinsics.h"
 
 // What the heads of frames are made with. For .cpp files only: it has the JSON library in it.
 
@@ -28,6 +29,7 @@ inline Frame frame_of(const Json& head, std::string octets = {}) {
 [[nodiscard]] Json from(const Vec3& v);     ///< to 0.1 mm
 [[nodiscard]] Json from(const Pose& pose);  ///< twelve numbers, to 1e-6
 [[nodiscard]] Json from(const Box& box);    ///< min, max
-[[nodiscard]] Json from_time(double t_s);   ///< to 1 ms
+[[nodiscard]] Json from(const CameraIntrinsics& camera);
+[[nodiscard]] Json from_time(double t_s);  ///< to 1 ms
 
 }  // namespace canopeer::frames

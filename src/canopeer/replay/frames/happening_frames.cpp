@@ -60,7 +60,8 @@ Frame trolley_frame(const MotionEvent& drive, const TrolleyState& there) {
   return frame_of(head);
 }
 
-Frame view_frame(const ViewEvent& view, const TrolleyState& trolley) {
+Frame view_frame(const ViewEvent& view, const TrolleyState& trolley,
+                 const CameraIntrinsics* camera) {
   Json head = head_of("view");
   head["view"] = view.view;
   head["segment"] = view.segment;
@@ -79,6 +80,7 @@ Frame view_frame(const ViewEvent& view, const TrolleyState& trolley) {
   head["nodes"] = view.graph_nodes;
   head["edges"] = view.graph_edges;
   head["fruits"] = view.fruits.size();
+  if (camera != nullptr) head["camera"] = from(*camera);
   return frame_of(head);
 }
 

@@ -14,7 +14,9 @@ namespace canopeer::frames {
 
 [[nodiscard]] Frame segment_frame(const SegmentEvent& segment, const TrolleyState& trolley);
 [[nodiscard]] Frame trolley_frame(const MotionEvent& drive, const TrolleyState& there);
-[[nodiscard]] Frame view_frame(const ViewEvent& view, const TrolleyState& trolley);
+/// `camera`: when it is another than the one told last, else null.
+[[nodiscard]] Frame view_frame(const ViewEvent& view, const TrolleyState& trolley,
+                               const CameraIntrinsics* camera);
 /// The path as it is timed, stretched to the duration that is expected.
 [[nodiscard]] Frame motion_frame(const MotionBegun& motion, const JointLimits& limits);
 [[nodiscard]] Frame motion_end_frame(const MotionEvent& motion);

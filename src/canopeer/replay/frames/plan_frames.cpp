@@ -59,12 +59,24 @@ Frame PlanFrames::plan(const Planned& planned) {
   int new_views = 0;
   for (const PlanSketch::View& view : sketch.views) {
     if (view.visited) visited.push_back(view.id);
-    if (std::binary_search(views_.begin(), views_.end(), view.id)) continue;
+    const auto [told, is_new] = views_.try_emplace(view.id, view.kind);
+    if (!is_new && told->second == view.kind) continue;
+    told->second = view.kind;
     append_view(octets, view);
     ++new_views;
   }
-  views_.clear();
-  for (const PlanSketch::View& view : sketch.views) views_.push_back(view.id);
+  // Both ascend.
+  std::vector<std::int32_t> gone_views;
+  auto present = sketch.views.begin();
+  for (auto told = views_.begin(); told != views_.end();) {
+    while (present != sketch.views.end() && present->id < told->first) ++present;
+    if (present != sketch.views.end() && present->id == told->first) {
+      ++told;
+    } else {
+      gone_views.push_back(told->first);
+      told = views_.erase(told);
+    }
+  }
   const std::vector<EdgeIds> new_edges = without(edges, edges_);
   const std::vector<EdgeIds> gone_edges = without(edges_, edges);
   for (const std::vector<EdgeIds>* list : {&new_edges, &gone_edges}) {
@@ -73,6 +85,7 @@ Frame PlanFrames::plan(const Planned& planned) {
       append_number(octets, b);
     }
   }
+  for (const std::int32_t id : gone_views) append_number(octets, id);
   Json head = head_of("plan");
   head["t_s"] = from_time(planned.t_s);
   head["segment"] = planned.segment;
@@ -80,6 +93,7 @@ Frame PlanFrames::plan(const Planned& planned) {
   head["views"] = new_views;
   head["edges"] = new_edges.size();
   head["gone_edges"] = gone_edges.size();
+  head["gone_views"] = gone_views.size();
   head["path"] = sketch.path;
   head["at"] = sketch.at ? Json(*sketch.at) : Json(nullptr);
   head["visited"] = without(visited, visited_);

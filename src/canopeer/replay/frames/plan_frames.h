@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -18,9 +19,9 @@ class PlanFrames {
  private:
   using EdgeIds = std::pair<std::int32_t, std::int32_t>;
   int segment_ = -1;
-  std::vector<std::int32_t> views_;    // told, ascending
-  std::vector<EdgeIds> edges_;         // told, sorted
-  std::vector<std::int32_t> visited_;  // told, ascending
+  std::map<std::int32_t, TargetKind> views_;  // told
+  std::vector<EdgeIds> edges_;                // told, sorted
+  std::vector<std::int32_t> visited_;         // told, ascending
 };
 
 }  // namespace canopeer::frames

@@ -115,8 +115,7 @@ Frame robot_frame(const RobotModel& robot, const CameraIntrinsics& camera) {
     head["links"].push_back(link_json(robot, i, all));
   head["T_world_root"] = from(robot.setup().T_world_root);
   head["camera_link"] = robot.link_index(robot.setup().camera_frame);
-  head["camera"] = {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
-                    {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
+  head["camera"] = from(camera);
   head["vertices"] = all.vertex_count;
   return frame_of(head, all.vertices + all.corners);
 }

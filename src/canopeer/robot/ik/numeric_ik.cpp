@@ -1,9 +1,9 @@
 #include "canopeer/robot/ik/numeric_ik.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
-#include <numbers>
+#include <cmath>
+#include <limits>
 
 #include "canopeer/base/rng.h"
 
@@ -38,6 +38,37 @@ Vec3 turn_between(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
   if (angle < 1.0) return twice_sine_axis / 2.0;
   const Eigen::AngleAxisd half_turn(R);
   return half_turn.angle() * half_turn.axis();
+}
+
+/// Δq = Jᵀ (J Jᵀ + λ)⁻¹ e of the first n rows of J, by Cholesky's A = L Lᵀ. Plain loops: with
+/// Eigen's products and solvers of these sizes this file takes the compiler twice as long.
+template <std::size_t n>
+void damped_step(const RobotModel::Jacobian& J, const std::array<double, n>& error, double damping,
+                 Configuration& step) {
+  const auto joints = static_cast<int>(J.cols());
+  const auto at = [&J](std::size_t row, int i) { return J(static_cast<int>(row), i); };
+  std::array<std::array<double, n>, n> L;  // the lower half
+  for (std::size_t r = 0; r < n; ++r) {
+    for (std::size_t c = 0; c <= r; ++c) {
+      double rest = r == c ? damping : 0.0;
+      for (int i = 0; i < joints; ++i) rest += at(r, i) * at(c, i);
+      for (std::size_t k = 0; k < c; ++k) rest -= L[r][k] * L[c][k];
+      L[r][c] = r == c ? std::sqrt(rest) : rest / L[c][c];
+    }
+  }
+  std::array<double, n> x = error;
+  for (std::size_t r = 0; r < n; ++r) {
+    for (std::size_t k = 0; k < r; ++k) x[r] -= L[r][k] * x[k];
+    x[r] /= L[r][r];
+  }
+  for (std::size_t r = n; r-- > 0;) {
+    for (std::size_t k = r + 1; k < n; ++k) x[r] -= L[k][r] * x[k];
+    x[r] /= L[r][r];
+  }
+  for (int i = 0; i < joints; ++i) {
+    step[i] = 0.0;
+    for (std::size_t r = 0; r < n; ++r) step[i] += at(r, i) * x[r];
+  }
 }
 
 }  // namespace
@@ -88,60 +119,61 @@ int NumericIk::nearest_starts(const Goal& goal, int count, int* rows) const {
 
 template <int kEquations>
 bool NumericIk::converge(const Goal& goal, Configuration& q) const {
-  using Matrix =
-      Eigen::Matrix<double, kEquations, Eigen::Dynamic, Eigen::ColMajor, kEquations, kMaxArmJoints>;
-  using Square = Eigen::Matrix<double, kEquations, kEquations>;
-  using Vector = Eigen::Matrix<double, kEquations, 1>;
   const Configuration& lower = robot_.limits().lower;
   const Configuration& upper = robot_.limits().upper;
   const int dof = robot_.dof();
   Pose T;
-  RobotModel::Jacobian full;
-  Matrix J(kEquations, dof);
+  RobotModel::Jacobian J;
   double best = std::numeric_limits<double>::infinity();
   int stuck = 0;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    robot_.camera_jacobian(q, T, full);
-    Vector error;
-    error.template head<3>() = goal.T_base_camera.translation() - T.translation();
+    robot_.camera_jacobian(q, T, J);
+    const Vec3 shift = goal.T_base_camera.translation() - T.translation();
+    std::array<double, kEquations> error = {shift.x(), shift.y(), shift.z()};
     if constexpr (kEquations == 5) {
       // A turn about the optical axis is free: only the parts along the image's axes count.
+      const Vec3 right = T.linear().col(0);
+      const Vec3 down = T.linear().col(1);
       const Vec3 turn =
           turn_between(Vec3(T.linear().col(2)), Vec3(goal.T_base_camera.linear().col(2)));
-      const Eigen::Matrix<double, 2, 3> image = T.linear().template leftCols<2>().transpose();
-      error.template tail<2>() = image * turn;
-      J.template topRows<3>() = full.template topRows<3>();
-      J.template bottomRows<2>() = image * full.template bottomRows<3>();
+      error[3] = right.dot(turn);
+      error[4] = down.dot(turn);
+      for (int i = 0; i < dof; ++i) {
+        const Vec3 turned(J(3, i), J(4, i), J(5, i));
+        J(3, i) = right.dot(turned);
+        J(4, i) = down.dot(turned);
+      }
     } else {
-      error.template tail<3>() =
+      const Vec3 turn =
           turn_between(Eigen::Matrix3d(T.linear()), Eigen::Matrix3d(goal.T_base_camera.linear()));
-      J = full;
+      for (std::size_t k = 0; k < 3; ++k) error[3 + k] = turn[static_cast<int>(k)];
     }
-    const double size = error.norm();
+    double square = 0.0;
+    for (const double part : error) square += part * part;
+    const double size = std::sqrt(square);
     if (size < kConverged) return true;
     stuck = size < 0.5 * best ? 0 : stuck + 1;
     best = std::min(best, size);
     if (stuck > kPatience && size > kGiveUpAbove) return false;
     if (stuck > 3 * kPatience) return false;
 
-    // Δq = Jᵀ (J Jᵀ + λ)⁻¹ e with λ = ½|e|² + ε; columns of joints that a limit holds are left out.
+    // Columns of joints that a limit holds are left out.
     Configuration step(dof);
     for (int round = 0; round < 3; ++round) {
-      Square A = J * J.transpose();
-      A.diagonal().array() += 0.5 * size * size * 1e-2 + 1e-12;
-      step.noalias() = J.transpose() * Eigen::LLT<Square>(A).solve(error);
+      damped_step(J, error, 0.5 * square * 1e-2 + 1e-12, step);
       bool held = false;
       for (int i = 0; i < dof; ++i) {
         const bool out = (q[i] <= lower[i] && step[i] < 0.0) || (q[i] >= upper[i] && step[i] > 0.0);
-        if (!out || J.col(i).isZero(0.0)) continue;
-        J.col(i).setZero();
+        if (!out) continue;
+        for (int row = 0; row < kEquations; ++row) J(row, i) = 0.0;
         held = true;
       }
       if (!held) break;
     }
-    const double longest = step.template lpNorm<Eigen::Infinity>();
-    if (longest > kLongestStep) step *= kLongestStep / longest;
-    q = (q + step).cwiseMax(lower).cwiseMin(upper);
+    double longest = 0.0;
+    for (int i = 0; i < dof; ++i) longest = std::max(longest, std::abs(step[i]));
+    const double share = longest > kLongestStep ? kLongestStep / longest : 1.0;
+    for (int i = 0; i < dof; ++i) q[i] = std::clamp(q[i] + share * step[i], lower[i], upper[i]);
   }
   return false;
 }
