@@ -257,7 +257,7 @@ export class App implements Actions {
       const { theirs } = this.connectionState;
       this.panels.say("lost", `This page reads protocol ${kProtocol}, the program speaks ${theirs}. Reload the page; if that does not help, it comes from another version.`, "warning");
     } else if (end) {
-      this.panels.say(end.interrupted ? "cut off" : reader.live ? "done" : "replay", "");
+      this.panels.say(end.interrupted ? "stopped early" : reader.live ? "done" : "replay", "");
     } else if (this.timeline.closed && arrived < 1) {
       this.panels.say("cut off", `This replay is damaged: only the first ${Math.floor(100 * arrived)} % can be read.`, "warning");
     } else if (this.timeline.complete) {

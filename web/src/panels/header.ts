@@ -3,7 +3,7 @@ import { clock, whole } from "../ui/format.ts";
 import { el, setText } from "../ui/dom.ts";
 import { icon } from "../ui/icons.ts";
 
-export type RunStatus = "connecting" | "live" | "replay" | "done" | "lost" | "cut off";
+export type RunStatus = "connecting" | "live" | "replay" | "done" | "lost" | "stopped early" | "cut off";
 
 /** The line above: which run, and how it stands. */
 export class Header {
