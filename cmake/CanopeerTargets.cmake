@@ -39,8 +39,11 @@ endif()
 # is what a rebuild takes, and it finds missing includes.
 option(CANOPEER_UNITY_BUILD "Compile several files of a target together, with precompiled headers" OFF)
 if(CANOPEER_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  # Types of a .cpp may hold types of its unnamed namespace, also when it is compiled with others.
-  target_compile_options(canopeer_warnings INTERFACE -Wno-subobject-linkage)
+  # Types of a .cpp may hold types of its unnamed namespace, also when it is compiled with others. A library's macros may
+  # forbid precompiled headers: a loss of time, no error.
+  target_compile_options(canopeer_warnings INTERFACE -Wno-subobject-linkage -Wno-error=invalid-pch)
+  # One such macro, of Debian 13's tinyxml2, says what holds on 64 bit machines anyway: so all files have it.
+  target_compile_definitions(canopeer_warnings INTERFACE _FILE_OFFSET_BITS=64)
 endif()
 function(canopeer_compile_together target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${CANOPEER_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 8)
