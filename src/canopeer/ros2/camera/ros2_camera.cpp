@@ -145,7 +145,8 @@ Expected<void> Ros2Camera::subscribe(Node& node, const Ros2CameraSettings& setti
     auto made = subscribe_part(node, part, topic_of(settings, part), qos);
     if (!made) return made;
   }
-  if (!settings.info.empty()) {
+  // That of a colour camera is of no use to a cloud: it has its own shape.
+  if (settings.points.empty() && !settings.info.empty()) {
     auto made = node.subscribe<sensor_msgs::CameraInfo>(
         settings.info, qos, [this](sensor_msgs::CameraInfo&& info, const Guid&) {
           feed_->intake().set_info(std::move(info));
