@@ -41,8 +41,9 @@ void need_view_page() {
                         "npm) and build it again"});
 }
 
-LiveView::LiveView(Run& run, SteeringTogether& steering, const ViewArguments& arguments)
-    : pace_([&stop = catch_stop_signals()] { return stop.load(); }) {
+LiveView::LiveView(Run& run, SteeringTogether& steering, std::atomic<bool>& stop,
+                   const ViewArguments& arguments)
+    : pace_([&signal = catch_stop_signals()] { return signal.load(); }) {
   if (arguments.view) need_view_page();
   if (!arguments.view && !arguments.replay) return;
   const std::shared_ptr<ReplayLog> log = new_log(run, arguments.replay);
@@ -61,7 +62,10 @@ LiveView::LiveView(Run& run, SteeringTogether& steering, const ViewArguments& ar
   options.report = run.out() / "report.html";
   options.live = true;
   ViewControls controls;
-  controls.steer = [this](SteeringWord::Kind word) { desk_.say({word, "page", ""}); };
+  controls.steer = [this, &stop](SteeringWord::Kind word) {
+    desk_.say({word, "page", ""});
+    if (word == SteeringWord::Kind::stop) stop = true;  // what moves now stops too
+  };
   controls.speed = [this](double factor) { pace_.set(factor); };
   server_ = value_or_stop(ViewServer::start(options, log, std::move(controls)), kBadInput);
   std::fprintf(stderr, "canopeer: watch at %s\n", server_->link().c_str());
