@@ -54,8 +54,9 @@ void need_view_page() {
              "reached no registry; build it again with both"});
 }
 
-LiveView::LiveView(Run& run, SteeringTogether& steering, const ViewArguments& arguments)
-    : pace_([this, &stop = catch_stop_signals()] { return stop || desk_.unread(); }) {
+LiveView::LiveView(Run& run, SteeringTogether& steering, std::atomic<bool>& stop,
+                   const ViewArguments& arguments)
+    : pace_([this, &signal = catch_stop_signals()] { return signal || desk_.unread(); }) {
   if (arguments.view) {
     need_view_page();
     need_free_port(arguments);
@@ -79,7 +80,10 @@ LiveView::LiveView(Run& run, SteeringTogether& steering, const ViewArguments& ar
   options.report = run.out() / "report.html";
   options.live = true;
   ViewControls controls;
-  controls.steer = [this](SteeringWord::Kind word) { desk_.say({word, "page", ""}); };
+  controls.steer = [this, &stop](SteeringWord::Kind word) {
+    desk_.say({word, "page", ""});
+    if (word == SteeringWord::Kind::stop) stop = true;  // what moves now stops too
+  };
   if (simulated) controls.speed = [this](double factor) { pace_.set(factor); };
   server_ = value_or_stop(ViewServer::start(options, log, std::move(controls)), kBadInput);
   std::fprintf(stderr, "canopeer: watch at %s\n", server_->link().c_str());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <string>
 
@@ -14,8 +15,10 @@ namespace canopeer::app {
 /// The replay of a run that begins, and the page that shows it while it lasts.
 class LiveView {
  public:
-  /// Before Run::begin(). Ends the command when there can be no page (Stop).
-  LiveView(Run& run, SteeringTogether& steering, const ViewArguments& arguments);
+  /// Before Run::begin(). Ends the command when there can be no page (Stop). `stop` is set when
+  /// somebody stops the run on the page; it outlives the view.
+  LiveView(Run& run, SteeringTogether& steering, std::atomic<bool>& stop,
+           const ViewArguments& arguments);
   /// As long as somebody looks on, and nobody pressed Ctrl-C.
   void stay(bool quiet) const;
 

@@ -1,5 +1,6 @@
 #include <sys/resource.h>
 
+#include <atomic>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -43,7 +44,7 @@ void check_site(const RunArguments& arguments) {
   }
 }
 
-std::unique_ptr<Run> compose(const RunArguments& arguments) {
+std::unique_ptr<Run> compose(const RunArguments& arguments, const std::atomic<bool>& page_stop) {
   check_site(arguments);
   ImportLine line(arguments.quiet);
   const Overrides overrides = overrides_of(arguments);
@@ -55,7 +56,12 @@ std::unique_ptr<Run> compose(const RunArguments& arguments) {
   request.callbacks.on_message = [](const std::string& text) {
     std::fprintf(stderr, "canopeer: %s\n", text.c_str());
   };
-  request.callbacks.stop_asked = [&stop = catch_stop_signals()] { return stop.load(); };
+  request.callbacks.stop_asked = [&page_stop, &stop = catch_stop_signals()] {
+    return stop || page_stop;
+  };
+  if (arguments.site == kRos2) {
+    request.callbacks.stop_at_once = [&stop = catch_second_stop()] { return stop.load(); };
+  }
   return value_or_stop(Run::compose(load(arguments.mission, overrides), request,
                                     *arguments.mission.registries, arguments.out),
                        kBadInput);
@@ -107,10 +113,11 @@ void print_lost_watchers(const Mission& mission) {
 
 void run(const RunArguments& arguments) {
   SignalSteering signals;
-  const std::unique_ptr<Run> run = compose(arguments);
+  std::atomic<bool> page_stop{false};
+  const std::unique_ptr<Run> run = compose(arguments, page_stop);
   SteeringTogether steering;
   steering.add(signals);
-  const LiveView view(*run, steering, arguments.view);
+  const LiveView view(*run, steering, page_stop, arguments.view);
   run->steer(steering);
   run->watch(std::make_shared<MissionProgress>(arguments.quiet), {.name = "the progress bar"});
   value_or_stop(run->begin(), kFailed);

@@ -134,6 +134,43 @@ TEST_F(Action, AGoalIsAcceptedFollowedAndEnds) {
   EXPECT_EQ(heard_.feedback().size(), 1U);
 }
 
+/// The services of an action, whose answer to a goal comes when the test says.
+TEST(SlowAction, AGoalAcceptedTooLateIsCancelledThen) {
+  const auto here = make_node("here");
+  const auto there = make_node("there");
+  const std::string base = std::string(kAction) + "/_action/";
+  std::mutex mutex;
+  std::optional<Server<SendGoal<Follow>>::Reply> reply;
+  std::atomic<int> cancels = 0;
+  const auto goals = must(Server<SendGoal<Follow>>::make(
+      *there, base + "send_goal", [&](SendGoal<Follow>::Request&&, auto answer) {
+        const std::lock_guard lock(mutex);
+        reply = answer;
+      }));
+  const auto results =
+      must(Server<GetResult<Follow>>::make(*there, base + "get_result", [](auto&&, auto) {}));
+  const auto stops = must(
+      Server<action_msgs::CancelGoal>::make(*there, base + "cancel_goal", [&](auto&&, auto answer) {
+        ++cancels;
+        answer({});
+      }));
+  const auto feedback = must(there->advertise<FeedbackMessage<Follow>>(base + "feedback"));
+  const auto status =
+      must(there->advertise<action_msgs::GoalStatusArray>(base + "status", kLatchedQos));
+  const auto client = must(ActionClient<Follow>::make(*here, kAction));
+  ASSERT_FALSE(client->send(goal_for("elbow"), {}, 10s)) << "not all is there yet";
+  ASSERT_TRUE(eventually([&] { return client->ready(); }));
+  const auto sent = client->send(goal_for("elbow"), {}, 100ms);
+  ASSERT_FALSE(sent);
+  EXPECT_NE(sent.error().message.find("no answer to a goal within 100 ms"), std::string::npos);
+  ASSERT_TRUE(eventually([&] {
+    const std::lock_guard lock(mutex);
+    return cancels == 1 && reply.has_value();
+  }));
+  (*reply)({true, {}});
+  EXPECT_TRUE(eventually([&] { return cancels == 2; }));
+}
+
 TEST_F(Action, AGoalMayBeRejected) {
   EXPECT_FALSE(must(client_->send(goal_for("tail"), heard_.events(), 10s)));
   EXPECT_EQ(controller_.started(), 0U);

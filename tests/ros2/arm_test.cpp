@@ -37,13 +37,17 @@ class Ros2ArmTest : public ::testing::Test {
     must(listener_->listen(*node_, settings.arm.joint_states));
     PersonHooks person;
     person.stop_asked = [this] { return stop_.load(); };
+    person.going_home = [this] { return stop_heard_.load(); };
+    person.stop_at_once = [this] { return at_once_.load(); };
     if (settings.confirm) {
       person.may_move = [this](const std::string& what) {
         asked_ = what;
         return confirmed_;
       };
     }
-    arm_ = must(Ros2Arm::make({*node_, test_robot(), *joints_, clock_, person}, settings));
+    arm_ = must(Ros2Arm::make({*node_, test_robot(), *joints_, clock_, person,
+                               [this] { return listener_->contradiction(); }},
+                              settings));
     ASSERT_TRUE(eventually([&] {
       return arm_->ready() && joints_->last().has_value() &&
              !robot_node_->subscribers_of(std::string(kAction) + "/_action/feedback").empty();
@@ -78,6 +82,8 @@ class Ros2ArmTest : public ::testing::Test {
   std::unique_ptr<Node> node_ = testing_support::make_node("canopeer");
   RosClock clock_;
   std::atomic<bool> stop_{false};
+  std::atomic<bool> stop_heard_{false};
+  std::atomic<bool> at_once_{false};
   bool confirmed_ = true;
   std::string asked_;
   std::optional<TestController> controller_;
@@ -109,6 +115,31 @@ TEST_F(Ros2ArmTest, RefusesWithoutFreshJointStates) {
   ASSERT_FALSE(planned);
   EXPECT_NE(planned.error().message.find("no joint state of"), std::string::npos);
   EXPECT_EQ(controller_->goals(), 0);
+}
+
+TEST_F(Ros2ArmTest, IsLostWhenTwoContradictEachOther) {
+  start();
+  const auto other = must(robot_node_->advertise<sensor_msgs::JointState>("/joint_states"));
+  sensor_msgs::JointState state;
+  state.name = {test_robot().setup().arm_joints[0]};
+  state.position = {home_[0]};
+  const auto said_for = [&](std::chrono::milliseconds span) {
+    const auto end = JointHistory::Steady::now() + span;
+    return eventually([&] {
+      other.publish(state);
+      return !arm_->fresh() || JointHistory::Steady::now() > end;
+    });
+  };
+  ASSERT_TRUE(said_for(std::chrono::milliseconds(800)));
+  EXPECT_TRUE(arm_->fresh()) << "they agree";
+  state.position = {home_[0] + 0.1};
+  ASSERT_TRUE(said_for(std::chrono::seconds(20)));
+  const auto fresh = arm_->fresh();
+  ASSERT_FALSE(fresh);
+  EXPECT_NE(fresh.error().message.find("two publishers contradict each other: " + state.name[0]),
+            std::string::npos)
+      << fresh.error().message;
+  EXPECT_FALSE(arm_->start(a_motion()));
 }
 
 TEST_F(Ros2ArmTest, RefusesToBeginElsewhereThanWhereTheArmIs) {
@@ -256,7 +287,30 @@ TEST_F(Ros2ArmTest, APersonWhoStopsTheRunCancelsTheMotionButNotTheWayHome) {
   stop_ = true;
   EXPECT_EQ(must(arm_->finish()).end, MotionEnd::cancelled);
   controller_->faults([](ControllerFaults& f) { f.speed = 1.0; });
+  stop_heard_ = true;
   EXPECT_EQ(move({{arm_->configuration(), home_}}).end, MotionEnd::arrived);
+}
+
+TEST_F(Ros2ArmTest, AStopThatTheMissionDoesNotKnowOfYetHoldsTheNextMotionBack) {
+  start();
+  stop_ = true;
+  EXPECT_EQ(move(a_motion()).end, MotionEnd::cancelled);
+  EXPECT_EQ(controller_->goals(), 0);
+  stop_heard_ = true;
+  EXPECT_EQ(move(a_motion()).end, MotionEnd::arrived);
+}
+
+TEST_F(Ros2ArmTest, ASecondStopEndsTheWayHome) {
+  start();
+  controller_->faults([](ControllerFaults& f) { f.speed = 0.2; });
+  stop_ = stop_heard_ = true;
+  ASSERT_TRUE(arm_->start(a_motion()));
+  at_once_ = true;
+  EXPECT_EQ(must(arm_->finish()).end, MotionEnd::cancelled);
+  const auto again = arm_->start({{arm_->configuration(), home_}});
+  ASSERT_FALSE(again);
+  EXPECT_NE(again.error().message.find("the arm stays where it is"), std::string::npos);
+  EXPECT_EQ(controller_->goals(), 1);
 }
 
 TEST_F(Ros2ArmTest, AMotionUnderWayEndsWithItsArm) {
@@ -265,6 +319,16 @@ TEST_F(Ros2ArmTest, AMotionUnderWayEndsWithItsArm) {
   ASSERT_TRUE(arm_->start(a_motion()));
   arm_.reset();
   EXPECT_TRUE(eventually([&] { return controller_->cancels() == 1; }));
+}
+
+TEST_F(Ros2ArmTest, AMotionUnderWayEndsWithTheMission) {
+  start();
+  controller_->faults([](ControllerFaults& f) { f.speed = 0.05; });
+  ASSERT_TRUE(arm_->start(a_motion()));
+  arm_->end_motion();
+  EXPECT_EQ(controller_->cancels(), 1);
+  arm_.reset();
+  EXPECT_EQ(controller_->cancels(), 1) << "once";
 }
 
 TEST_F(Ros2ArmTest, SilentJointStatesWhileMovingAreALostArm) {
@@ -300,6 +364,29 @@ TEST_F(Ros2ArmTest, AControllerThatStopsTalkingButObeysIsCancelled) {
   ASSERT_TRUE(eventually([&] { return controller_->progress() > 0.02; }));
   controller_->faults([](ControllerFaults& f) { f.feedback = false; });
   EXPECT_EQ(must(arm_->finish()).end, MotionEnd::cancelled);
+}
+
+TEST_F(Ros2ArmTest, AControllerThatGaveFeedbackBeforeIsMissedFromTheStart) {
+  start();
+  EXPECT_EQ(move(a_motion()).end, MotionEnd::arrived);
+  controller_->faults([](ControllerFaults& f) {
+    f.feedback = false;
+    f.speed = 0.05;
+  });
+  const MotionOutcome outcome = move({{arm_->configuration(), home_}});
+  EXPECT_EQ(outcome.end, MotionEnd::cancelled);
+  EXPECT_NE(outcome.why.find("no feedback"), std::string::npos) << outcome.why;
+}
+
+TEST_F(Ros2ArmTest, AControllerThatLeavesIsLost) {
+  start();
+  controller_->faults([](ControllerFaults& f) { f.speed = 0.05; });
+  ASSERT_TRUE(arm_->start(a_motion()));
+  controller_->leave();
+  const auto outcome = arm_->finish();
+  ASSERT_FALSE(outcome);
+  EXPECT_NE(outcome.error().message.find("its server went away"), std::string::npos)
+      << outcome.error().message;
 }
 
 TEST_F(Ros2ArmTest, AControllerWithoutAnyFeedbackWorks) {

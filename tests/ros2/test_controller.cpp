@@ -120,6 +120,13 @@ void TestController::step(double dt_s) {
   publisher_.publish(state);
 }
 
+void TestController::leave() {
+  std::unique_ptr<Server> server;  // goes outside the lock, which its handlers take
+  const std::lock_guard lock(mutex_);
+  id_.reset();
+  server = std::move(server_);
+}
+
 std::vector<double> TestController::positions() const {
   const std::lock_guard lock(mutex_);
   return positions_;

@@ -46,6 +46,8 @@ class TestController {
     const std::lock_guard lock(mutex_);
     change(faults_);
   }
+  /// The action is gone, in mid-motion too; joint states go on.
+  void leave();
   [[nodiscard]] std::vector<double> positions() const;
   void put(const std::vector<double>& positions);
   [[nodiscard]] int goals() const { return goals_; }

@@ -134,6 +134,33 @@ TEST(JointListener, RefusesAndCountsWhatIsNoPosition) {
   EXPECT_EQ(counts.jumps_back, 1);
 }
 
+/// Somebody who repeats what another says a little later does not contradict, moving or not.
+TEST(JointListener, KnowsWhoLagsFromWhoContradicts) {
+  using std::chrono::milliseconds;
+  JointHistory arm({"a"});
+  JointListener listener({}, {&arm}, [] { return kBegin; });
+  const Guid driver{1};
+  const Guid other{2};
+  const auto begin = JointHistory::Steady::now();
+  const auto say = [&](double wrong_by) {
+    static double t_s = 0.0;
+    for (int i = 0; i < 200; ++i, t_s += 0.01) {
+      const auto received = begin + milliseconds(static_cast<int>(1000 * t_s));
+      listener.take(state(t_s, {"a"}, {t_s}), received, driver);
+      listener.take(state(t_s, {"a"}, {t_s - 0.1 + wrong_by}), received + milliseconds(5), other);
+    }
+    return listener.contradiction(begin + milliseconds(static_cast<int>(1000 * t_s)));
+  };
+  EXPECT_FALSE(say(0.0));
+  EXPECT_FALSE(say(0.2)) << "ahead";
+  ASSERT_TRUE(say(1.0));
+  EXPECT_NE(say(1.0)->find("01.00"), std::string::npos);
+  EXPECT_NEAR(arm.last()->at(0), 7.99, 1e-6) << "the first is believed";
+  listener.take(state(20.0, {"a"}, {5.0}), begin + milliseconds(20000), other);
+  EXPECT_EQ(arm.last()->at(0), 5.0) << "who is alone is believed";
+  EXPECT_FALSE(listener.contradiction(begin + milliseconds(20000)));
+}
+
 TEST(JointListener, StampsThatAreLeftOutAreNow) {
   JointHistory arm({"a"});
   JointListener listener({}, {&arm}, [] { return kBegin; });

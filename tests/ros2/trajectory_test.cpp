@@ -103,6 +103,24 @@ TEST(TrajectoryGoal, BeginsWhereTheJointsStandAndIsOnThePathSoon) {
   EXPECT_EQ(end_of(goal), q(1, 0, 0));
 }
 
+TEST(TrajectoryGoal, MakesUpNoFasterThanLimitsAllow) {
+  JointLimits slow = limits();
+  slow.velocity *= 0.05;
+  slow.acceleration *= 0.0025;
+  const PathMotion motion(std::vector<Configuration>{q(0, 0, 0)}, slow);
+  const auto goal = trajectory_goal(motion, kJoints, q(0.1, 0, 0), {}, {100.0, 0, 0, 0, slow});
+  double fastest = 0.0;
+  double strongest = 0.0;
+  for (const auto& point : goal.trajectory.points) {
+    fastest = std::max(fastest, std::abs(point.velocities[0]));
+    strongest = std::max(strongest, std::abs(point.accelerations[0]));
+  }
+  EXPECT_LE(fastest, slow.velocity[0]);
+  EXPECT_LE(strongest, slow.acceleration[0]);
+  EXPECT_GT(strongest, 0.9 * slow.acceleration[0]) << "no slower than need be";
+  EXPECT_EQ(end_of(goal), q(0, 0, 0));
+}
+
 TEST(TrajectoryGoal, OfNoWayStillStandsThere) {
   const PathMotion motion(std::vector<Configuration>{q(0.3, 0, 0)}, limits());
   const auto goal = goal_of(motion, q(0.3, 0, 0));

@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <future>
+#include <numbers>
 
 #include "canopeer/cdr/messages/std_msgs.h"
 #include "canopeer/cdr/messages/std_srvs.h"
 #include "canopeer/dds/service.h"
+#include "canopeer/map/fusion.h"
 #include "canopeer/ros2/arm/joint_listener.h"
 #include "canopeer/ros2/trolley/ros2_trolley.h"
 #include "ros_fixture.h"
@@ -44,7 +46,17 @@ class Ros2TrolleyTest : public ::testing::Test {
       const std::lock_guard lock(mutex_);
       said_.push_back(text);
     };
-    trolley_ = must(Ros2Trolley::make({*node_, test_robot(), *sense_, clock_, person}, arm_,
+    if (settings.confirm) {
+      person.may_move = [this](const std::string&) {
+        arm_.q[1] += nudge_;
+        return true;
+      };
+    }
+    const auto fresh = [this]() -> Expected<void> {
+      if (arm_silent_) return fail("lost the arm");
+      return {};
+    };
+    trolley_ = must(Ros2Trolley::make({*node_, test_robot(), *sense_, clock_, person, fresh}, arm_,
                                       settings, [this] { ++moved_; }));
     ASSERT_TRUE(eventually([&] { return trolley_->missing().empty(); }));
   }
@@ -66,6 +78,8 @@ class Ros2TrolleyTest : public ::testing::Test {
   RosClock clock_;
   StandingArm arm_;
   std::atomic<bool> stop_{false};
+  std::atomic<bool> arm_silent_{false};
+  double nudge_ = 0.0;  ///< of the arm, while a person is asked
   std::mutex mutex_;
   std::vector<std::string> said_;
   int moved_ = 0;
@@ -89,6 +103,21 @@ TEST_F(Ros2TrolleyTest, DoesNotMoveUnlessTheArmIsHome) {
             std::string::npos);
 }
 
+TEST_F(Ros2TrolleyTest, LooksAtTheArmAgainAfterThePersonsAnswer) {
+  Ros2Settings settings = settings_of(Ros2TrolleySettings::Kind::fixed);
+  settings.confirm = true;
+  start(settings);
+  nudge_ = 0.3;
+  EXPECT_NE(error_of(trolley_->move_to({1.5, 0.0})).find("the arm is not at home"),
+            std::string::npos);
+}
+
+TEST_F(Ros2TrolleyTest, DoesNotMoveWhenNothingIsHeardOfTheArm) {
+  start(settings_of(Ros2TrolleySettings::Kind::fixed));
+  arm_silent_ = true;
+  EXPECT_EQ(error_of(trolley_->move_to({1.5, 0.0})), "lost the arm");
+}
+
 TEST_F(Ros2TrolleyTest, DoesNotLeaveItsLimits) {
   start(settings_of(Ros2TrolleySettings::Kind::fixed));
   EXPECT_NE(error_of(trolley_->move_to({1000.0, 0.0})).find("beyond the axes' limits"),
@@ -102,6 +131,14 @@ TEST_F(Ros2TrolleyTest, OfADryRunStaysToo) {
   EXPECT_TRUE(trolley_->move_to({1.5, 0.0}));
   EXPECT_EQ(trolley_->state().travel_m, 1.0);
   EXPECT_NE(last_said().find("dry run"), std::string::npos);
+}
+
+TEST_F(Ros2TrolleyTest, DoesNotMoveAfterAStop) {
+  start(settings_of(Ros2TrolleySettings::Kind::manual));
+  stop_ = true;
+  EXPECT_TRUE(trolley_->move_to({1.5, 0.0}));
+  EXPECT_EQ(last_said(), "");
+  EXPECT_EQ(trolley_->state().travel_m, 1.0);
 }
 
 /// A controller for the axes that the robot has.
@@ -160,6 +197,15 @@ TEST_F(TrajectoryTrolley, StopsWhenAPersonWantsThat) {
   EXPECT_LT(trolley_->state().travel_m, 1.5);
 }
 
+TEST_F(TrajectoryTrolley, StopsWhenNothingIsHeardOfTheArm) {
+  begin();
+  auto driving = std::async(std::launch::async, [&] { return trolley_->move_to({1.5, 0.5}); });
+  ASSERT_TRUE(eventually([&] { return controller_->goals() == 1; }));
+  arm_silent_ = true;
+  EXPECT_NE(error_of(driving.get()).find("lost the arm"), std::string::npos);
+  EXPECT_EQ(controller_->cancels(), 1);
+}
+
 /// A travel axis that goes where a topic says, a millimetre every millisecond.
 class TopicsTrolley : public Ros2TrolleyTest {
  protected:
@@ -212,13 +258,15 @@ TEST_F(TopicsTrolley, SaysThatItDidNotArrive) {
   begin(0.3);
   stuck_ = true;
   EXPECT_NE(error_of(drive(1.2)).find("did not arrive within"), std::string::npos);
+  EXPECT_TRUE(eventually([&] { return goal_ == 1.0; })) << "it is to stay where it is";
 }
 
 TEST_F(TopicsTrolley, IsLostWhenItsPlaceIsSaidNoMore) {
   begin();
   stuck_ = true;
   silent_ = true;
-  EXPECT_NE(error_of(drive(1.2)).find("lost it: nothing was heard of"), std::string::npos);
+  EXPECT_NE(error_of(drive(1.5)).find("lost it: nothing was heard of"), std::string::npos);
+  EXPECT_TRUE(eventually([&] { return goal_ == 1.4; })) << "where it would be after two seconds";
 }
 
 /// A person at the trolley.
@@ -271,11 +319,12 @@ TEST_F(ManualTrolley, WhosePlaceIsMeasuredIsSentOnWhenItIsTooFarOff) {
     });
   };
   ASSERT_TRUE(pushed_to(1.3));
-  auto driving = std::async(std::launch::async, [&] { return trolley_->move_to({1.5, 0.0}); });
+  auto driving = std::async(std::launch::async, [&] { return trolley_->move_to({1.5, 0.1}); });
   ASSERT_TRUE(eventually([&] { return !last_said().empty(); }));
   const Trigger::Response too_early = call();
   EXPECT_FALSE(too_early.success);
   EXPECT_NE(too_early.message.find("it stands at travel 1.300 m"), std::string::npos);
+  EXPECT_EQ(trolley_->state().lift_m, 0.0) << "nothing is believed of who is not there";
   ASSERT_TRUE(pushed_to(1.45));
   EXPECT_TRUE(call().success);
   EXPECT_TRUE(driving.get());
@@ -286,17 +335,43 @@ TEST_F(ManualTrolley, IsPlacedByTheMapOnce) {
   start(settings_of(Ros2TrolleySettings::Kind::manual));
   const VoxelMap map;
   RgbdFrame frame;
-  trolley_->check_place(&map, frame);
+  EXPECT_TRUE(trolley_->check_place(&map, frame));
   EXPECT_EQ(last_said(), "");  // nothing was pushed
   auto driving = std::async(std::launch::async, [&] { return trolley_->move_to({1.5, 0.0}); });
   ASSERT_TRUE(eventually([&] { return !last_said().empty(); }));
   ASSERT_TRUE(call().success);
   ASSERT_TRUE(driving.get());
-  trolley_->check_place(&map, frame);
+  EXPECT_TRUE(trolley_->check_place(&map, frame));
   EXPECT_NE(last_said().find("nothing is mapped yet"), std::string::npos);
   const std::size_t said = said_.size();
-  trolley_->check_place(&map, frame);
+  EXPECT_TRUE(trolley_->check_place(&map, frame));
   EXPECT_EQ(said_.size(), said);
+}
+
+/// A wall along the row looks the same wherever the trolley stands.
+TEST_F(ManualTrolley, IsConfirmedOnceMoreWhereTheMapIsUnclear) {
+  start(settings_of(Ros2TrolleySettings::Kind::manual));
+  RgbdFrame frame;
+  frame.T_world_camera = Pose(Eigen::Translation3d(0.5, 2.0, 1.0) *
+                              Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitY()));
+  frame.depth = DepthImage(frame.intrinsics.width, frame.intrinsics.height, 1.0F);
+  VoxelMap map;
+  RgbdFrame beside = frame;
+  for (double y = 1.0; y <= 3.0; y += 0.2) {
+    beside.T_world_camera.translation().y() = y;
+    fuse(map, beside, Mask());
+  }
+  auto driving = std::async(std::launch::async, [&] { return trolley_->move_to({1.5, 0.0}); });
+  ASSERT_TRUE(eventually([&] { return !last_said().empty(); }));
+  ASSERT_TRUE(call().success);
+  ASSERT_TRUE(driving.get());
+  auto placing = std::async(std::launch::async, [&] { return trolley_->check_place(&map, frame); });
+  ASSERT_TRUE(eventually([&] { return last_said().find("call once more") != std::string::npos; }));
+  EXPECT_EQ(placing.wait_for(0ms), std::future_status::timeout);
+  EXPECT_TRUE(call().success);
+  EXPECT_TRUE(placing.get());
+  EXPECT_FALSE(trolley_->in_doubt());
+  EXPECT_EQ(moved_, 2) << "frames from before count no more";
 }
 
 }  // namespace

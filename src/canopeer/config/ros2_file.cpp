@@ -21,7 +21,7 @@ void read_ros2_arm(YamlMap arm, Ros2ArmSettings& o) {
   o.speed_scale = arm.number("speed_scale", o.speed_scale, {0.01, 1.0});
   o.first_motions = arm.integer("first_motions", o.first_motions, 0, 1000);
   o.first_motion_scale = arm.number("first_motion_scale", o.first_motion_scale, {0.01, 1.0});
-  o.start_tolerance_rad = arm.number("start_tolerance_rad", o.start_tolerance_rad, {1e-4, 1.0});
+  o.start_tolerance_rad = arm.number("start_tolerance_rad", o.start_tolerance_rad, {1e-4, 0.1});
   o.path_tolerance_rad = arm.number("path_tolerance_rad", o.path_tolerance_rad, {0.0, 3.0});
   o.goal_tolerance_rad = arm.number("goal_tolerance_rad", o.goal_tolerance_rad, {0.0, 1.0});
   o.goal_time_tolerance_s =

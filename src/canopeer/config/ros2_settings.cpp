@@ -36,7 +36,7 @@ void check_arm(const Ros2ArmSettings& arm, Ros2Findings& findings) {
   findings.within("arm.speed_scale", arm.speed_scale, 0.01, 1.0);
   findings.within("arm.first_motions", arm.first_motions, 0, 1000);
   findings.within("arm.first_motion_scale", arm.first_motion_scale, 0.01, 1.0);
-  findings.within("arm.start_tolerance_rad", arm.start_tolerance_rad, 1e-4, 1.0);
+  findings.within("arm.start_tolerance_rad", arm.start_tolerance_rad, 1e-4, 0.1);
   findings.within("arm.path_tolerance_rad", arm.path_tolerance_rad, 0.0, 3.0);
   findings.within("arm.goal_tolerance_rad", arm.goal_tolerance_rad, 0.0, 1.0);
   findings.within("arm.goal_time_tolerance_s", arm.goal_time_tolerance_s, 0.0, 3600.0);

@@ -33,8 +33,8 @@ class ActionClient {
   /// All three services and both topics are there.
   [[nodiscard]] bool ready() const;
   /// Sends the goal and waits until it is accepted (true) or rejected (false); the result comes by
-  /// events. The error: nobody is there, or no answer came in time; then the goal is cancelled, in
-  /// case it arrived.
+  /// events. The error: not all of the server is there, no answer came in time, or the result
+  /// cannot be asked for; then the goal is cancelled, now and when it is accepted late.
   [[nodiscard]] Expected<bool> send(const typename A::Goal& goal, Events events,
                                     std::chrono::milliseconds patience);
   /// Asks the server to cancel the goal sent last; true: it will.
@@ -72,14 +72,15 @@ class ActionClient {
   using Cancel = Client<action_msgs::CancelGoal>;
 
   ActionClient(Send send, Result result, Cancel cancel)
-      : send_(std::move(send)), result_(std::move(result)), cancel_(std::move(cancel)) {}
+      : cancel_(std::move(cancel)), send_(std::move(send)), result_(std::move(result)) {}
   [[nodiscard]] Expected<void> listen(Node& node, const std::string& action);
   [[nodiscard]] Expected<void> ask_result(const std::shared_ptr<Current>& current);
+  void cancel_unheard(const UUID& goal);
 
   const std::shared_ptr<Latest> latest_ = std::make_shared<Latest>();
+  Cancel cancel_;  // before what late answers come from
   Send send_;
   Result result_;
-  Cancel cancel_;
   Subscription feedback_;
   Subscription status_;
 };

@@ -58,20 +58,41 @@ bool ActionClient<A>::ready() const {
 template <class A>
 Expected<bool> ActionClient<A>::send(const typename A::Goal& goal, Events events,
                                      std::chrono::milliseconds patience) {
+  using Response = typename SendGoal<A>::Response;
+  if (!ready()) return fail("the action's server is not there, or not all of it");
   const auto current = std::make_shared<Current>();
   current->id = new_goal_id();
   current->events = std::move(events);
   latest_->set(current);
-  const auto response = send_.call({current->id, goal}, patience);
-  if (response && response->accepted) {
-    const auto asked = ask_result(current);
-    if (!asked) return tl::unexpected(asked.error());
-    return true;
+  const auto answer = std::make_shared<Awaited<Response>>();
+  const auto given_up = std::make_shared<std::atomic<bool>>(false);
+  const auto sent = send_.ask({current->id, goal},
+                              [this, answer, given_up, id = current->id](Response&& response) {
+                                const bool accepted = response.accepted;
+                                answer->give(std::move(response));
+                                if (*given_up && accepted) cancel_unheard(id);
+                              });
+  if (!sent) return tl::unexpected(sent.error());
+  const auto response = answer->wait(patience, [this] { return send_.ready(); });
+  if (response && !(*response)->accepted) {
+    latest_->set(nullptr);
+    return false;
   }
-  latest_->set(nullptr);
-  if (response) return false;
-  static_cast<void>(cancel_.ask({{current->id, {}}}, [](auto&&) {}));
-  return tl::unexpected(response.error());
+  const auto asked =
+      response
+          ? ask_result(current)
+          : Expected<void>(fail("no answer to a goal within " + std::to_string(patience.count()) +
+                                " ms, or its server went away; the goal is cancelled"));
+  if (asked) return true;
+  *given_up = true;
+  cancel_unheard(current->id);
+  return tl::unexpected(asked.error());
+}
+
+/// Without waiting for what becomes of it.
+template <class A>
+void ActionClient<A>::cancel_unheard(const UUID& goal) {
+  static_cast<void>(cancel_.ask({{goal, {}}}, [](auto&&) {}));
 }
 
 template <class A>

@@ -1,5 +1,6 @@
 #include "canopeer/ros2/ros2_site.h"
 
+#include <atomic>
 #include <utility>
 
 #include "canopeer/base/check.h"
@@ -36,14 +37,34 @@ class PlacingTrolley : public Trolley {
     if (!moved || !trolley_.in_doubt()) return moved;
     auto frame = camera_.capture();
     if (!frame) return fail_in("camera", frame.error());
-    trolley_.check_place(map_, *frame);
-    return {};
+    return trolley_.check_place(map_, *frame);
   }
 
  private:
   Ros2Trolley& trolley_;
   Camera& camera_;
   const VoxelMap* map_ = nullptr;
+};
+
+/// The site's steering, which knows whether the mission was told of a stop.
+class HeardSteering : public Steering {
+ public:
+  HeardSteering(Steering& steering, std::function<bool()> stop_asked)
+      : steering_(steering), stop_asked_(std::move(stop_asked)) {}
+  SteeringWord ask(const SteeringPoint& point) override {
+    const bool stop = stop_asked_();  // first: what is said later is for the next question
+    SteeringWord word = steering_.ask(point);
+    if (!stop) return word;
+    stop_heard_ = true;
+    if (word.kind == SteeringWord::Kind::stop) return word;
+    return {SteeringWord::Kind::stop, "person", ""};
+  }
+  bool stop_heard() const { return stop_heard_; }
+
+ private:
+  Steering& steering_;
+  const std::function<bool()> stop_asked_;
+  std::atomic<bool> stop_heard_{false};
 };
 
 class Ros2Site : public Site {
@@ -61,7 +82,8 @@ class Ros2Site : public Site {
   const ExactChecker& judge() const override { return judge_; }
   void watch_map(const VoxelMap* map) override { placing_->watch_map(map); }
   std::shared_ptr<Watcher> watcher() override { return output_->watcher(); }
-  Steering* steering() override { return &output_->steering(); }
+  Steering* steering() override { return steering_.get(); }
+  void end_motion() override { arm_->end_motion(); }
   void results_in(const std::filesystem::path& out) override { output_->save_into(out); }
 
  private:
@@ -91,7 +113,8 @@ class Ros2Site : public Site {
   std::unique_ptr<Ros2Trolley> trolley_;
   std::unique_ptr<Ros2Camera> camera_;
   std::unique_ptr<PlacingTrolley> placing_;
-  std::unique_ptr<Ros2Output> output_;  // last: it asks for what is above
+  std::unique_ptr<Ros2Output> output_;  // late: it asks for what is above
+  std::unique_ptr<HeardSteering> steering_;
 };
 
 Expected<void> Ros2Site::open() {
@@ -121,25 +144,30 @@ Expected<void> Ros2Site::open_output() {
       {node_, clock_, request_.file, settings_, request_.robot, [this] { return place(); }});
   if (!output) return tl::unexpected(output.error());
   output_ = std::move(*output);
+  steering_ = std::make_unique<HeardSteering>(output_->steering(), [this] { return stop_asked(); });
   return {};
 }
 
 Expected<void> Ros2Site::open_ports() {
   std::vector<JointHistory*> histories = sense_.by_joint_states();
   histories.push_back(&joints_);
-  listener_ = std::make_unique<JointListener>(settings_.arm.joint_names, histories,
-                                              [this] { return clock_->now(); });
+  listener_ = std::make_unique<JointListener>(
+      settings_.arm.joint_names, histories, [this] { return clock_->now(); },
+      settings_.arm.start_tolerance_rad);
   if (auto ok = listener_->listen(*node_, settings_.arm.joint_states); !ok) return ok;
   if (auto ok = sense_.listen(*node_, *clock_); !ok) return ok;
 
-  auto arm = Ros2Arm::make({*node_, request_.robot, joints_, *clock_, person()}, settings_);
+  auto arm = Ros2Arm::make({*node_, request_.robot, joints_, *clock_, person(),
+                            [this] { return listener_->contradiction(); }},
+                           settings_);
   if (!arm) return tl::unexpected(arm.error());
   arm_ = std::move(*arm);
-  auto trolley = Ros2Trolley::make({*node_, request_.robot, sense_, *clock_, person()}, *arm_,
-                                   settings_, [this] {
-                                     const auto now = joints_.newest();
-                                     if (now) camera_->feed().not_before(*now);
-                                   });
+  auto trolley = Ros2Trolley::make(
+      {*node_, request_.robot, sense_, *clock_, person(), [this] { return arm_->fresh(); }}, *arm_,
+      settings_, [this] {
+        const auto now = joints_.newest();
+        if (now) camera_->feed().not_before(*now);
+      });
   if (!trolley) return tl::unexpected(trolley.error());
   trolley_ = std::move(*trolley);
 
@@ -162,10 +190,11 @@ Expected<void> Ros2Site::open_ports() {
 PersonHooks Ros2Site::person() {
   PersonHooks person;
   person.stop_asked = [this] { return stop_asked(); };
-  person.may_move = [this](const std::string& motion) {
+  person.going_home = [this] { return steering_->stop_heard(); };
+  person.stop_at_once = request_.callbacks.stop_at_once;
+  person.may_move = [this, person](const std::string& motion) {
     // Who has stopped the run may still want the arm to go home.
-    return output_->may_move(motion,
-                             [this, before = stop_asked()] { return !before && stop_asked(); });
+    return output_->may_move(motion, [&] { return person.arm_stops(); });
   };
   person.say = [this](const std::string& text) { tell(text); };
   return person;

@@ -174,6 +174,7 @@ Expected<Summary> Run::finish() {
   State& s = *state_;
   if (s.phase != State::Phase::running) return fail("a run ends once, after begin()");
   s.phase = State::Phase::ended;
+  s.stage->site().end_motion();
   if (auto ended = s.mission.end(); !ended && s.outcome) s.outcome = std::move(ended);
   const std::chrono::duration<double> wall = SteadyClock::now() - s.begun;
   return write_results(s.out, s.record->record(), s.mission, s.stage->site().truth(), wall.count());

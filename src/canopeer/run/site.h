@@ -33,6 +33,8 @@ class Site {
   [[nodiscard]] virtual std::shared_ptr<Watcher> watcher() { return nullptr; }
   /// Who may steer runs from there; null: nobody. Valid as long as the site.
   [[nodiscard]] virtual Steering* steering() { return nullptr; }
+  /// The mission is over, well or not: what may still move is told to stop.
+  virtual void end_motion() {}
   /// Where the run's results will lie.
   virtual void results_in(const std::filesystem::path& /*out*/) {}
   /// What is really there; null where nobody knows: on a real robot.
@@ -57,6 +59,8 @@ struct SiteCallbacks {
   std::function<void(const std::string& text)> on_message{};  ///< what a person should know or do
   /// Whether a person wants the run to stop: motions under way end then, too.
   std::function<bool()> stop_asked{};
+  /// Whether they want it so much that the arm stays where it is instead of going home.
+  std::function<bool()> stop_at_once{};
 };
 
 /// What a stage has to know of a site before it is made.

@@ -128,8 +128,9 @@ class Reader : public std::enable_shared_from_this<Reader> {
       // Who reads from the beginning gets all; who falls behind meanwhile has pictures left out.
       const bool hurry = caught_up_ && pieces - piece_ > kFarBehind;
       auto frames = shared_.log->piece(piece_++);
-      if (!frames) {
-        close();
+      if (!frames) {  // nothing that comes later can be understood
+        socket_.async_close(websocket::close_code::normal,
+                            [self = shared_from_this()](beast::error_code) { self->close(); });
         return false;
       }
       for (std::string& frame : *frames) {

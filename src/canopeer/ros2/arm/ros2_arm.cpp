@@ -74,7 +74,11 @@ Configuration Ros2Arm::configuration() const {
 Expected<void> Ros2Arm::fresh() const {
   if (auto ok = parts_.clock.check(); !ok) return ok;
   const auto silent = parts_.joints.silent(settings_.max_silence_s);
-  if (silent.empty()) return {};
+  if (silent.empty()) {
+    const auto wrong = parts_.contradiction ? parts_.contradiction() : std::nullopt;
+    if (wrong) return fail("lost the arm: " + *wrong);
+    return {};
+  }
   return fail("lost the arm: no joint state of " + listed(silent) + " for " +
               figure(settings_.max_silence_s, 1) + " s on " + listed(settings_.joint_states));
 }
@@ -90,6 +94,8 @@ std::optional<MotionOutcome> Ros2Arm::refusal(const JointPath& path) const {
   if (safety_ != nullptr) {
     if (auto stop = safety_->stop()) return refused(MotionEnd::stopped, std::move(*stop));
   }
+  // Said while the motion was planned: the mission does not know it yet.
+  if (parts_.person.arm_stops()) return refused(MotionEnd::cancelled, "the run is to stop");
   if (path.waypoints.empty()) return refused(MotionEnd::refused, "there is no path");
   const Configuration q = configuration();
   for (Eigen::Index i = 0; i < q.size(); ++i) {
@@ -98,8 +104,8 @@ std::optional<MotionOutcome> Ros2Arm::refusal(const JointPath& path) const {
     if (beside <= settings_.start_tolerance_rad) continue;
     return refused(MotionEnd::refused, names_[static_cast<std::size_t>(i)] + " is " +
                                            figure(beside, 3) +
-                                           " from where the motion begins: was the arm moved? "
-                                           "(ros2.arm.start_tolerance_rad)");
+                                           " from where the motion begins: was the arm moved? See "
+                                           "why before you raise ros2.arm.start_tolerance_rad");
   }
   return std::nullopt;
 }
@@ -121,8 +127,11 @@ double Ros2Arm::hold_back(MotionEnd end, std::string why, double duration_s) {
   return duration_s;
 }
 
-/// False: it is held back. The error: where the arm is is not known.
+/// False: it is held back. The error: where the arm is is not known, or it is to stay there.
 Expected<bool> Ros2Arm::may_begin(const JointPath& path) {
+  if (parts_.person.at_once()) {
+    return fail("told to stop twice: the arm stays where it is; bring it home by hand");
+  }
   if (auto ok = fresh(); !ok) return tl::unexpected(ok.error());
   held_back_ = refusal(path);
   duration_s_ = 0.0;
@@ -130,7 +139,6 @@ Expected<bool> Ros2Arm::may_begin(const JointPath& path) {
 }
 
 Expected<double> Ros2Arm::start(const JointPath& path) {
-  stop_was_asked_ = parts_.person.stop();
   auto may = may_begin(path);
   if (!may) return tl::unexpected(may.error());
   if (!*may) return 0.0;
@@ -138,14 +146,17 @@ Expected<double> Ros2Arm::start(const JointPath& path) {
   if (dry_run_) return hold_back(MotionEnd::withheld, "a dry run", motion.duration_s());
   if (parts_.person.may_move) {
     const std::string what = "move the arm for " + figure(motion.duration_s(), 1) + " s";
-    if (!parts_.person.may_move(what)) return hold_back(MotionEnd::cancelled, "a person said no");
+    if (!parts_.person.may_move(what) && !parts_.person.arm_stops()) {
+      return hold_back(MotionEnd::cancelled, "a person said no");
+    }
     may = may_begin(path);  // the answer may have taken minutes
     if (!may) return tl::unexpected(may.error());
     if (!*may) return 0.0;
   }
-  goal_ = trajectory_goal(motion, names_, drivers_positions(), parts_.robot.endless(),
-                          {settings_.rate_hz, settings_.path_tolerance_rad,
-                           settings_.goal_tolerance_rad, settings_.goal_time_tolerance_s});
+  goal_ =
+      trajectory_goal(motion, names_, drivers_positions(), parts_.robot.endless(),
+                      {settings_.rate_hz, settings_.path_tolerance_rad,
+                       settings_.goal_tolerance_rad, settings_.goal_time_tolerance_s, limits()});
   const auto accepted = client_->send(goal_);
   if (!accepted) return fail_in("lost " + settings_.action, accepted.error());
   if (!*accepted) {
@@ -171,7 +182,7 @@ Expected<MotionOutcome> Ros2Arm::finish() {
 void Ros2Arm::wait_out(double duration_s) const {
   const double end_s = parts_.clock.now_s() + duration_s;
   while (parts_.clock.now_s() < end_s && parts_.clock.check()) {
-    if (!stop_was_asked_ && parts_.person.stop()) return;
+    if (parts_.person.arm_stops()) return;
     parts_.clock.sleep(0.01);
   }
 }
@@ -180,9 +191,8 @@ std::optional<std::string> Ros2Arm::cancel_reason() const {
   if (safety_ != nullptr) {
     if (auto stop = safety_->stop()) return stop;
   }
-  if (!stop_was_asked_ && parts_.person.stop()) {
-    return "the run is to stop";
-  }
+  if (parts_.person.at_once()) return "the run is to stop at once";
+  if (parts_.person.arm_stops()) return "the run is to stop";
   return std::nullopt;
 }
 

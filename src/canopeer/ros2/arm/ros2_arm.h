@@ -27,6 +27,8 @@ class Ros2Arm : public Arm {
     const JointHistory& joints;  ///< of the arm's joints, in their order
     RosClock& clock;
     PersonHooks person;
+    /// Who contradict each other about joints, for people (JointListener); empty: nobody.
+    std::function<std::optional<std::string>()> contradiction{};
   };
   /// `settings` holds what the arm needs to know. All parts outlive it. The error: the action or a
   /// topic cannot be had.
@@ -36,8 +38,12 @@ class Ros2Arm : public Arm {
   /// The controller is there.
   [[nodiscard]] bool ready() const { return client_->ready(); }
 
-  /// The error: where the arm is is not known any more, since joint states or the time stay out.
+  /// The error: where the arm is is not known any more, since joint states or the time stay out, or
+  /// publishers contradict each other.
   [[nodiscard]] Expected<void> fresh() const;
+
+  /// A motion that was started and has no end, as far as is known, is told to stop.
+  void end_motion() { client_->stop(); }
 
   /// As the last joint states say. Those that are beyond a limit by no more than the tolerance of
   /// starts are at the limit. Zeros before the first joint states.
@@ -71,7 +77,6 @@ class Ros2Arm : public Arm {
   std::optional<MotionOutcome> held_back_;  ///< it was not sent
   FollowJointTrajectory::Goal goal_;
   double duration_s_ = 0.0;
-  bool stop_was_asked_ = false;  ///< before it began: the way home after a stop may go on
 };
 
 }  // namespace canopeer::ros

@@ -12,6 +12,7 @@ using std::chrono::milliseconds;
 constexpr milliseconds kGoalLook(10);  // between two looks at who may end a goal
 constexpr milliseconds kAnswer(2000);  // to a goal
 constexpr milliseconds kCancelAnswer(500);
+constexpr int kCancelTries = 3;
 constexpr milliseconds kBraking(5000);         // after a goal was cancelled, until its result
 constexpr milliseconds kResultAfterEnd(1000);  // its reply may be lost
 
@@ -29,8 +30,10 @@ Expected<std::unique_ptr<TrajectoryClient>> TrajectoryClient::make(Node& node,
   return std::unique_ptr<TrajectoryClient>(new TrajectoryClient(action, std::move(*client)));
 }
 
-TrajectoryClient::~TrajectoryClient() {
-  if (under_way_) static_cast<void>(cancel());
+TrajectoryClient::~TrajectoryClient() { stop(); }
+
+void TrajectoryClient::stop() {
+  if (under_way_ && cancel()) under_way_ = false;
 }
 
 Expected<bool> TrajectoryClient::send(const FollowJointTrajectory::Goal& goal) {
@@ -51,10 +54,11 @@ Expected<bool> TrajectoryClient::send(const FollowJointTrajectory::Goal& goal) {
     news->result = GoalEnding{state, result, std::nullopt};
     news->changed.notify_all();
   };
+  gives_feedback_ = gives_feedback();
   news_ = news;
   sent_ = Steady::now();
   auto accepted = client_->send(goal, std::move(events), kAnswer);
-  under_way_ = accepted.value_or(false);
+  under_way_ = !accepted || *accepted;  // who does not answer may have taken it
   return accepted;
 }
 
@@ -78,16 +82,35 @@ std::optional<std::string> TrajectoryClient::reason(const GoalWatch& watch) cons
     return "it was under way for " + figure(taken_s, 1) + " s, which is too long";
   }
   const std::lock_guard lock(news_->mutex);
-  if (!news_->feedback || news_->ended) return std::nullopt;
-  const double silent_s = std::chrono::duration<double>(now - *news_->feedback).count();
+  if (news_->ended || !(news_->feedback || gives_feedback_)) return std::nullopt;
+  const auto last = news_->feedback.value_or(sent_);
+  const double silent_s = std::chrono::duration<double>(now - last).count();
   if (silent_s <= watch.max_feedback_silence_s) return std::nullopt;
   return "the controller gave no feedback for " + figure(silent_s, 1) + " s";
 }
 
+/// In this goal or one before.
+bool TrajectoryClient::gives_feedback() const {
+  if (gives_feedback_ || news_ == nullptr) return gives_feedback_;
+  const std::lock_guard lock(news_->mutex);
+  return news_->feedback.has_value();
+}
+
+/// The action's server went away in the middle of the goal.
+bool TrajectoryClient::gone() const {
+  if (client_->ready()) return false;
+  const std::lock_guard lock(news_->mutex);
+  return !news_->ended;
+}
+
+/// The error: no answer, though asked several times.
 Expected<void> TrajectoryClient::cancel() {
-  const auto answer = client_->cancel(kCancelAnswer);
-  if (!answer) return tl::unexpected(answer.error());
-  return {};  // who refuses has ended the goal already, or says so soon
+  Expected<bool> answer = false;
+  for (int i = 0; i < kCancelTries; ++i) {
+    answer = client_->cancel(kCancelAnswer);
+    if (answer) return {};  // who refuses has ended the goal already, or says so soon
+  }
+  return tl::unexpected(answer.error());
 }
 
 Expected<GoalEnding> TrajectoryClient::finish(const GoalWatch& watch) {
@@ -98,6 +121,10 @@ Expected<GoalEnding> TrajectoryClient::finish(const GoalWatch& watch) {
       under_way_ = false;
       ending->cancelled = std::move(cancelled);
       return *ending;
+    }
+    if (gone()) {
+      static_cast<void>(cancel());
+      return fail("lost " + action_ + ": its server went away while it moved");
     }
     if (const auto alive = watch.alive ? watch.alive() : Expected<void>(); !alive) {
       static_cast<void>(cancel());  // it may stop at least

@@ -20,9 +20,8 @@ struct GoalWatch {
   std::function<Expected<void>()> alive;
   /// Asked all the time; a text: why the goal is to be cancelled.
   std::function<std::optional<std::string>()> cancel;
-  double longest_s = 3600.0;  ///< then it is cancelled
-  double max_feedback_silence_s =
-      1.0;  ///< of a controller that gave feedback; then it is cancelled
+  double longest_s = 3600.0;            ///< then it is cancelled
+  double max_feedback_silence_s = 1.0;  ///< of a controller that gives any; then it is cancelled
 };
 
 /// How a goal ended.
@@ -41,6 +40,8 @@ class TrajectoryClient {
                                                                         const std::string& action);
   /// Cancels a goal that is under way.
   ~TrajectoryClient();
+  /// Cancels a goal that is under way, as far as is known, without waiting for its end.
+  void stop();
   [[nodiscard]] bool ready() const { return client_->ready(); }
   [[nodiscard]] const std::string& action() const { return action_; }
 
@@ -64,12 +65,15 @@ class TrajectoryClient {
       : action_(std::move(action)), client_(std::move(client)) {}
   [[nodiscard]] std::optional<GoalEnding> wait_a_little() const;
   [[nodiscard]] std::optional<std::string> reason(const GoalWatch& watch) const;
+  [[nodiscard]] bool gives_feedback() const;
+  [[nodiscard]] bool gone() const;
   [[nodiscard]] Expected<void> cancel();
 
   std::string action_;
   std::unique_ptr<ActionClient<FollowJointTrajectory>> client_;
-  std::shared_ptr<News> news_;  ///< of the goal sent last
-  bool under_way_ = false;      ///< it is, as far as we know
+  std::shared_ptr<News> news_;   ///< of the goal sent last
+  bool under_way_ = false;       ///< it is, as far as we know
+  bool gives_feedback_ = false;  ///< this controller, as was seen in earlier goals
   Steady::time_point sent_;
 };
 

@@ -9,7 +9,9 @@ namespace canopeer::ros {
 namespace {
 
 constexpr double kWholeTurn = 6.283185307179586;
-constexpr double kMakeUp_s = 0.5;  // for where the arm stands beside its path
+constexpr double kMakeUp_s = 0.5;        // at least, for where the arm stands beside its path
+constexpr double kFastestFade = 1.875;   // the greatest rate of a fade of a second
+constexpr double kStrongestFade = 5.78;  // the greatest acceleration
 constexpr double kNoGap = 1e-6;
 constexpr int kMostPoints = 20000;
 
@@ -25,6 +27,17 @@ Fade fade(double t_s, double T) {
   return {1.0 - u * u * u * (10.0 - u * (15.0 - 6.0 * u)),
           -30.0 * u * u * (1.0 - u) * (1.0 - u) / T,
           -60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) / (T * T)};
+}
+
+/// How long making up takes, so that no joint is faster for it than its limits.
+double make_up_s(const Configuration& gap, const JointLimits& limits) {
+  double time_s = kMakeUp_s;
+  for (Eigen::Index i = 0; i < std::min(gap.size(), limits.velocity.size()); ++i) {
+    const double way = std::abs(gap[i]);
+    time_s = std::max({time_s, kFastestFade * way / limits.velocity[i],
+                       std::sqrt(kStrongestFade * way / limits.acceleration[i])});
+  }
+  return time_s;
 }
 
 builtin_interfaces::Duration duration_of(double wanted_s) {
@@ -58,7 +71,8 @@ FollowJointTrajectory::Goal trajectory_goal(const PathMotion& motion,
   }
   const Configuration gap = stands - begin - turns;
   const bool beside = gap.lpNorm<Eigen::Infinity>() > kNoGap;
-  const double end_s = std::max(motion.duration_s(), beside ? kMakeUp_s : 1.0 / options.rate_hz);
+  const double fade_s = make_up_s(gap, options.limits);
+  const double end_s = std::max(motion.duration_s(), beside ? fade_s : 1.0 / options.rate_hz);
   const int steps =
       std::clamp(static_cast<int>(std::ceil(end_s * options.rate_hz)), 1, kMostPoints - 1);
 
@@ -67,7 +81,7 @@ FollowJointTrajectory::Goal trajectory_goal(const PathMotion& motion,
   goal.trajectory.points.reserve(static_cast<std::size_t>(steps) + 1);
   for (int i = 0; i <= steps; ++i) {
     const double t_s = i == steps ? end_s : end_s * i / steps;
-    const Fade left = fade(t_s, kMakeUp_s);
+    const Fade left = fade(t_s, fade_s);
     trajectory_msgs::JointTrajectoryPoint point;
     point.positions = numbers(motion.at(t_s) + turns + left.value * gap);
     Configuration velocity = motion.velocity_at(t_s) + left.rate * gap;

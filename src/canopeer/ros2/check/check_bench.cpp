@@ -43,7 +43,8 @@ Expected<void> open_joints(CheckBench& bench) {
   const auto now = [&bench] { return bench.clock->now(); };
   std::vector<JointHistory*> histories = bench.sense.by_joint_states();
   histories.push_back(&bench.joints);
-  bench.listener = std::make_unique<JointListener>(bench.settings.arm.joint_names, histories, now);
+  bench.listener = std::make_unique<JointListener>(bench.settings.arm.joint_names, histories, now,
+                                                   bench.settings.arm.start_tolerance_rad);
   const auto& topics = bench.settings.arm.joint_states;
   if (auto ok = bench.listener->listen(*bench.node, topics); !ok) return ok;
   bench.joint_ear = std::make_unique<JointEar>(now);
@@ -52,11 +53,13 @@ Expected<void> open_joints(CheckBench& bench) {
 }
 
 Expected<void> open_machines(CheckBench& bench, const PersonHooks& person) {
-  auto arm =
-      Ros2Arm::make({*bench.node, bench.robot, bench.joints, *bench.clock, person}, bench.settings);
+  auto arm = Ros2Arm::make({*bench.node, bench.robot, bench.joints, *bench.clock, person,
+                            [&bench] { return bench.listener->contradiction(); }},
+                           bench.settings);
   if (!arm) return tl::unexpected(arm.error());
   bench.arm = std::move(*arm);
-  auto trolley = Ros2Trolley::make({*bench.node, bench.robot, bench.sense, *bench.clock, person},
+  auto trolley = Ros2Trolley::make({*bench.node, bench.robot, bench.sense, *bench.clock, person,
+                                    [&bench] { return bench.arm->fresh(); }},
                                    *bench.arm, bench.settings, [] {});
   if (!trolley) return tl::unexpected(trolley.error());
   bench.trolley = std::move(*trolley);

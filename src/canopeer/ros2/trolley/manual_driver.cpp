@@ -35,24 +35,15 @@ class ManualDriver : public TrolleyDriver {
   }
 
   Expected<void> drive(const TrolleyState& goal) override {
-    const bool stop_was_asked = parts_.person.stop();
-    {
-      const std::lock_guard lock(mutex_);
-      waiting_for_ = goal;
-    }
-    parts_.person.tell("push the trolley to " + in_words(goal, parts_.robot) + " (now at " +
-                       in_words(parts_.sense.now(), parts_.robot) + "), then call " +
-                       parts_.node.resolve(kService));
-    while (waiting()) {
-      if (auto ok = parts_.clock.check(); !ok) return ok;
-      if (!stop_was_asked && parts_.person.stop()) {
-        const std::lock_guard lock(mutex_);
-        waiting_for_.reset();
-        return {};
-      }
-      parts_.clock.sleep(kPersonLook_s);
-    }
-    return {};
+    return wait_for_person(goal, "push the trolley to " + in_words(goal, parts_.robot) +
+                                     " (now at " + in_words(parts_.sense.now(), parts_.robot) +
+                                     "), then call ");
+  }
+  Expected<void> confirm_again() override {
+    const TrolleyState stands = parts_.sense.now();
+    return wait_for_person(stands, "look whether the trolley stands at " +
+                                       in_words(stands, parts_.robot) +
+                                       ", push it there if not, then call once more ");
   }
 
   bool in_doubt() const override {
@@ -65,6 +56,23 @@ class ManualDriver : public TrolleyDriver {
   }
 
  private:
+  Expected<void> wait_for_person(const TrolleyState& goal, const std::string& what_to_do) {
+    {
+      const std::lock_guard lock(mutex_);
+      waiting_for_ = goal;
+    }
+    parts_.person.tell(what_to_do + parts_.node.resolve(kService));
+    while (waiting()) {
+      if (auto ok = parts_.clock.check(); !ok) return ok;
+      if (parts_.person.stop()) {
+        const std::lock_guard lock(mutex_);
+        waiting_for_.reset();
+        return {};
+      }
+      parts_.clock.sleep(kPersonLook_s);
+    }
+    return {};
+  }
   bool waiting() const {
     const std::lock_guard lock(mutex_);
     return waiting_for_.has_value();
@@ -79,13 +87,13 @@ class ManualDriver : public TrolleyDriver {
       return response;
     }
     const TrolleyState goal = *waiting_for_;
-    parts_.sense.believe(goal);
-    const TrolleyState stands = parts_.sense.now();
+    const TrolleyState stands = parts_.sense.now_believing(goal);
     if (!stands_at(stands, goal, settings_.manual_tolerance_m)) {
       response.message = "it stands at " + in_words(stands, parts_.robot) + ", not at " +
                          in_words(goal, parts_.robot) + "; push it there and call again";
       return response;
     }
+    parts_.sense.believe(goal);
     asked_for_ = goal;
     doubt_ = !parts_.sense.measures_travel();
     waiting_for_.reset();

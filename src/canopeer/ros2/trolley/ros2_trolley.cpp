@@ -35,6 +35,9 @@ Expected<void> Ros2Trolley::check_limits(const TrolleyState& goal) const {
 
 /// Whoever drives past plants with the arm stretched out breaks something.
 Expected<void> Ros2Trolley::check_arm() const {
+  if (parts_.arm_fresh) {
+    if (auto ok = parts_.arm_fresh(); !ok) return ok;
+  }
   const Configuration q = arm_.configuration();
   std::string nearest;
   double least = std::numeric_limits<double>::infinity();
@@ -60,18 +63,21 @@ Expected<void> Ros2Trolley::move_to(const TrolleyState& goal) {
   }
   if (auto ok = check_arm(); !ok) return ok;
   if (parts_.person.may_move && settings_.kind != Ros2TrolleySettings::Kind::manual &&
-      !parts_.person.may_move("drive the trolley to " + in_words(goal, parts_.robot))) {
+      !parts_.person.may_move("drive the trolley to " + in_words(goal, parts_.robot)) &&
+      !parts_.person.stop()) {
     return fail("it must not move, a person said; the next segment is elsewhere");
   }
+  if (parts_.person.stop()) return {};        // the next question ends the mission
+  if (auto ok = check_arm(); !ok) return ok;  // the answer may have taken minutes
   auto driven = driver_->drive(goal);
   if (on_moved_) on_moved_();
   return driven;
 }
 
-void Ros2Trolley::check_place(const VoxelMap* map, RgbdFrame& frame) {
-  if (!driver_->in_doubt()) return;
+Expected<void> Ros2Trolley::check_place(const VoxelMap* map, RgbdFrame& frame) {
+  if (!driver_->in_doubt()) return {};
   driver_->settle();
-  if (map == nullptr) return;
+  if (map == nullptr) return {};
   const TrolleyState believed = state();
   const auto moved = [&](double shift_m) {
     TrolleyState there = believed;
@@ -83,9 +89,16 @@ void Ros2Trolley::check_place(const VoxelMap* map, RgbdFrame& frame) {
   const Vec3 axis = moved(1.0).translation() - moved(0.0).translation();
   const TravelRegistration found = register_travel(*map, frame, axis, options);
   parts_.person.tell(in_words(found, believed.travel_m));
-  if (found.kind != TravelRegistration::Kind::clear) return;
+  if (found.kind == TravelRegistration::Kind::unclear) {
+    auto confirmed = driver_->confirm_again();
+    driver_->settle();
+    if (on_moved_) on_moved_();
+    return confirmed;
+  }
+  if (found.kind != TravelRegistration::Kind::clear) return {};
   frame.T_world_camera = moved(found.shift_m) * moved(0.0).inverse() * frame.T_world_camera;
   parts_.sense.believe({believed.travel_m + found.shift_m, believed.lift_m});
+  return {};
 }
 
 }  // namespace canopeer::ros

@@ -32,7 +32,8 @@ class Ros2Trolley : public Trolley {
   [[nodiscard]] bool in_doubt() const { return driver_->in_doubt(); }
   /// The first frame after a push by hand: held against the map, its pose and the trolley's place
   /// put right where the map is clear, and people told. Other frames are left alone.
-  void check_place(const VoxelMap* map, RgbdFrame& frame);
+  /// Where the map is unclear a person confirms the place once more; that is waited for.
+  [[nodiscard]] Expected<void> check_place(const VoxelMap* map, RgbdFrame& frame);
 
  private:
   Ros2Trolley(const TrolleyParts& parts, const Arm& arm, const Ros2Settings& settings,

@@ -1,5 +1,7 @@
 #include "canopeer/ros2/trolley/topics_driver.h"
 
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 
@@ -37,23 +39,24 @@ class TopicsDriver : public TrolleyDriver {
   }
 
   Expected<void> drive(const TrolleyState& goal) override {
-    const bool stop_was_asked = parts_.person.stop();
     const double begun_s = parts_.clock.now_s();
     double said_s = begun_s - kAgain_s;
     double away_s = begun_s;  // last
     while (true) {
       const double now_s = parts_.clock.now_s();
-      if (auto ok = alive(); !ok) {
-        command(parts_.sense.now());
+      if (auto ok = parts_.alive(kTopicsSilence_s); !ok) {
+        const bool heard = parts_.sense.silent(kTopicsSilence_s).empty();
+        command(heard ? parts_.sense.now() : onward(goal));
         return ok;
       }
-      if (!stop_was_asked && parts_.person.stop()) {
+      if (parts_.person.stop()) {
         command(parts_.sense.now());
         return {};
       }
       if (!at(goal)) away_s = now_s;
       if (now_s - away_s >= kStands_s) return {};
       if (now_s - begun_s > settings_.timeout_s) {
+        command(parts_.sense.now());  // nobody watches it from now on
         return fail("it did not arrive within " + figure(settings_.timeout_s, 0) +
                     " s (ros2.trolley.timeout_s); it stands at " +
                     in_words(parts_.sense.now(), parts_.robot));
@@ -71,12 +74,14 @@ class TopicsDriver : public TrolleyDriver {
     if (travel_) travel_->publisher.publish({goal.travel_m});
     if (lift_) lift_->publisher.publish({goal.lift_m});
   }
-  Expected<void> alive() const {
-    if (auto ok = parts_.clock.check(); !ok) return ok;
-    const auto silent = parts_.sense.silent(kTopicsSilence_s);
-    if (silent.empty()) return {};
-    return fail("lost it: nothing was heard of " + silent.front() + " for " +
-                figure(kTopicsSilence_s, 1) + " s");
+  /// Told when nothing was heard of it for a while: about where it is by now, so that it need not
+  /// turn back.
+  TrolleyState onward(const TrolleyState& goal) const {
+    const double most_m = settings_.speed_m_s * kTopicsSilence_s;
+    TrolleyState place = parts_.sense.now();
+    place.travel_m += std::clamp(goal.travel_m - place.travel_m, -most_m, most_m);
+    place.lift_m += std::clamp(goal.lift_m - place.lift_m, -most_m, most_m);
+    return place;
   }
 
   TrolleyParts parts_;

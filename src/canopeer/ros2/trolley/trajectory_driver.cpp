@@ -56,13 +56,6 @@ class TrajectoryDriver : public TrolleyDriver {
     if (!parts_.robot.setup().lift_joint.empty()) values.push_back(state.lift_m);
     return Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   }
-  Expected<void> alive() const {
-    if (auto ok = parts_.clock.check(); !ok) return ok;
-    const auto silent = parts_.sense.silent(max_silence_s_);
-    if (silent.empty()) return {};
-    return fail("lost it: nothing was heard of " + silent.front() + " for " +
-                figure(max_silence_s_, 1) + " s");
-  }
 
   TrolleyParts parts_;
   Ros2TrolleySettings settings_;
@@ -76,8 +69,7 @@ class TrajectoryDriver : public TrolleyDriver {
 
 Expected<void> TrajectoryDriver::drive(const TrolleyState& goal) {
   if (axes_.empty()) return fail("the robot's URDF has no axes for it");
-  if (auto ok = alive(); !ok) return ok;
-  const bool stop_was_asked = parts_.person.stop();
+  if (auto ok = parts_.alive(max_silence_s_); !ok) return ok;
   const Configuration from = positions(parts_.sense.now());
   const PathMotion motion(std::vector<Configuration>{from, positions(goal)}, limits_);
   const auto accepted =
@@ -86,22 +78,22 @@ Expected<void> TrajectoryDriver::drive(const TrolleyState& goal) {
   if (!*accepted) return fail(client_->action() + " refuses to drive; its log says why");
 
   GoalWatch watch;
-  watch.alive = [this] { return alive(); };
+  watch.alive = [this] { return parts_.alive(max_silence_s_); };
   watch.cancel = [&]() -> std::optional<std::string> {
-    if (stop_was_asked || !parts_.person.stop()) return std::nullopt;
+    if (!parts_.person.stop()) return std::nullopt;
     return "the run is to stop";
   };
   watch.longest_s = std::max(settings_.timeout_s, motion.duration_s());
   const auto ending = client_->finish(watch);
   if (!ending) return tl::unexpected(ending.error());
-  if (!stop_was_asked && parts_.person.stop()) return {};
+  if (parts_.person.stop()) return {};
   if (ending->cancelled) return fail("cancelled: " + *ending->cancelled);
   if (ending->state != GoalState::succeeded) {
     return fail("it did not arrive: " + in_words(ending->result));
   }
   // Where it stands is said a little later than that it arrived.
   for (int wait = 0; wait < 100 && !at(goal); ++wait) {
-    if (auto ok = alive(); !ok) return ok;
+    if (auto ok = parts_.alive(max_silence_s_); !ok) return ok;
     parts_.clock.sleep(0.01);
   }
   if (at(goal)) return {};

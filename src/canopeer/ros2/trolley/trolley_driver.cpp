@@ -29,6 +29,17 @@ class FixedDriver : public TrolleyDriver {
 
 }  // namespace
 
+Expected<void> TrolleyParts::alive(double max_silence_s) const {
+  if (auto ok = clock.check(); !ok) return ok;
+  if (arm_fresh) {
+    if (auto ok = arm_fresh(); !ok) return ok;
+  }
+  const auto silent = sense.silent(max_silence_s);
+  if (silent.empty()) return {};
+  return fail("lost it: nothing was heard of " + silent.front() + " for " +
+              figure(max_silence_s, 1) + " s");
+}
+
 bool stands_at(const TrolleyState& state, const TrolleyState& goal, double tolerance_m) {
   return std::abs(state.travel_m - goal.travel_m) <= tolerance_m &&
          std::abs(state.lift_m - goal.lift_m) <= tolerance_m;

@@ -25,6 +25,8 @@ class TrolleyDriver {
   /// Whether the map should say where it stands, and the end of that doubt.
   [[nodiscard]] virtual bool in_doubt() const { return false; }
   virtual void settle() {}
+  /// The map does not show the place: a person looks again and says so. Waits for that.
+  [[nodiscard]] virtual Expected<void> confirm_again() { return {}; }
 };
 
 /// All outlive the driver.
@@ -34,6 +36,12 @@ struct TrolleyParts {
   TrolleySense& sense;
   RosClock& clock;
   PersonHooks person;
+  /// The error: nobody knows where the arm is any more. Empty: it is known.
+  std::function<Expected<void>()> arm_fresh{};
+
+  /// The error: the clock stands, the arm is not known, or nothing was heard of an axis for so
+  /// long.
+  [[nodiscard]] Expected<void> alive(double max_silence_s) const;
 };
 
 /// The driver for the settings' kind. The error: a topic, action or service cannot be had.

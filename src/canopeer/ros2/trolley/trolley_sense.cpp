@@ -46,22 +46,28 @@ std::vector<JointHistory*> TrolleySense::by_joint_states() {
   return histories;
 }
 
-double TrolleySense::Axis::now() const {
-  if (history == nullptr) return believed;
+double TrolleySense::Axis::now(double if_unknown) const {
+  if (history == nullptr) return if_unknown;
   const auto last = history->last();
-  return last ? last->front() : believed.load();
+  return last ? last->front() : if_unknown;
 }
 
 double TrolleySense::Axis::at(Stamp stamp) const {
   if (history == nullptr) return believed;
   if (const auto then = history->at(stamp)) return then->front();
   const auto oldest = history->oldest();
-  if (!oldest || stamp >= *oldest) return now();
+  if (!oldest || stamp >= *oldest) return now(believed);
   const auto first = history->between(0, *oldest, *oldest);
-  return first.empty() ? now() : first.front().position;
+  return first.empty() ? now(believed) : first.front().position;
 }
 
-TrolleyState TrolleySense::now() const { return {axes_[0].now(), axes_[1].now()}; }
+TrolleyState TrolleySense::now() const {
+  return now_believing({axes_[0].believed, axes_[1].believed});
+}
+
+TrolleyState TrolleySense::now_believing(const TrolleyState& state) const {
+  return {axes_[0].now(state.travel_m), axes_[1].now(state.lift_m)};
+}
 
 TrolleyState TrolleySense::at(Stamp stamp) const {
   return {axes_[0].at(stamp), axes_[1].at(stamp)};

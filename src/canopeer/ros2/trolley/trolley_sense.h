@@ -33,6 +33,8 @@ class TrolleySense {
   /// Counts for axes that nobody says anything of.
   void believe(const TrolleyState& state);
   [[nodiscard]] bool measures_travel() const { return axes_[0].history != nullptr; }
+  /// As now(), were `state` believed.
+  [[nodiscard]] TrolleyState now_believing(const TrolleyState& state) const;
 
   /// Axes of which nothing was heard for so long that should be heard, with where it was waited
   /// for: "travel (joint_states)".
@@ -47,7 +49,7 @@ class TrolleySense {
     std::atomic<double> believed{0.0};
     Subscription subscription;
     [[nodiscard]] double at(Stamp stamp) const;
-    [[nodiscard]] double now() const;
+    [[nodiscard]] double now(double if_unknown) const;
   };
   std::array<Axis, 2> axes_;
 };
