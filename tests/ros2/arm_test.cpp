@@ -346,7 +346,8 @@ TEST_F(Ros2ArmTest, AControllerThatVanishesIsLostThoughJointsAreHeard) {
   start();
   controller_->faults([](ControllerFaults& f) { f.speed = 0.05; });
   ASSERT_TRUE(arm_->start(a_motion()));
-  ASSERT_TRUE(eventually([&] { return controller_->progress() > 0.02; }));
+  ASSERT_TRUE(
+      eventually([&] { return controller_->goals() == 1 && controller_->progress() > 0.02; }));
   controller_->faults([](ControllerFaults& f) {
     f.feedback = false;
     f.answers_cancel = false;
@@ -361,7 +362,8 @@ TEST_F(Ros2ArmTest, AControllerThatStopsTalkingButObeysIsCancelled) {
   start();
   controller_->faults([](ControllerFaults& f) { f.speed = 0.05; });
   ASSERT_TRUE(arm_->start(a_motion()));
-  ASSERT_TRUE(eventually([&] { return controller_->progress() > 0.02; }));
+  ASSERT_TRUE(
+      eventually([&] { return controller_->goals() == 1 && controller_->progress() > 0.02; }));
   controller_->faults([](ControllerFaults& f) { f.feedback = false; });
   EXPECT_EQ(must(arm_->finish()).end, MotionEnd::cancelled);
 }
@@ -382,6 +384,7 @@ TEST_F(Ros2ArmTest, AControllerThatLeavesIsLost) {
   start();
   controller_->faults([](ControllerFaults& f) { f.speed = 0.05; });
   ASSERT_TRUE(arm_->start(a_motion()));
+  ASSERT_TRUE(eventually([&] { return controller_->goals() == 1; }));
   controller_->leave();
   const auto outcome = arm_->finish();
   ASSERT_FALSE(outcome);
