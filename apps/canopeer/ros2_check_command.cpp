@@ -34,6 +34,10 @@ void ros2_check(const Ros2CheckArguments& arguments) {
   const std::atomic<bool>& stop = catch_stop_signals();
   const MissionFile file = load(arguments.mission);
   RobotModel robot = robot_of(file);
+  if (arguments.move && file.ros2.value_or(Ros2Settings()).confirm) {
+    stop_with(kBadInput, {"ros2.confirm is on and --move asks nobody; with somebody at the stop: "
+                          "--set ros2.confirm=false"});
+  }
   robot.slow_down(file.ros2.value_or(Ros2Settings()).arm.speed_scale);
   Ros2CheckOptions options;
   options.listen_s = arguments.listen_s;
