@@ -90,6 +90,9 @@ void doctor(const DoctorArguments& arguments) {
   line("live view", view_page().empty()
                         ? "not built in: that takes Node 18 (Debian: npm) and the npm registry"
                         : "built in");
+  line("ROS 2", registries.sites.one_line("ros2").empty()
+                    ? "not built in: that takes libfastdds-dev (Debian 12: libfastrtps-dev)"
+                    : "built in");
   line("files", shipped_data().string());
   line("missions", joined(shipped_missions()));
   line("compute table", own_table_text());
