@@ -30,7 +30,9 @@ class OwnRobot : public Site, Arm, Camera, Trolley, Clock {
     }
     q_ = motion_->at(motion_->duration_s());  // DRIVER: where the joints really are now
     time_s_ += motion_->duration_s();
-    return MotionOutcome{q_};
+    MotionOutcome outcome;  // DRIVER: and how it ended, if not there
+    outcome.q = q_;
+    return outcome;
   }
 
   TrolleyState state() const override { return trolley_; }
