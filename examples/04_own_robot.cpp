@@ -34,7 +34,6 @@ class OwnRobot : public Site, Arm, Camera, Trolley, Clock {
     outcome.q = q_;
     return outcome;
   }
-
   TrolleyState state() const override { return trolley_; }
   Expected<void> move_to(const TrolleyState& goal) override {
     time_s_ += std::hypot(goal.travel_m - trolley_.travel_m, goal.lift_m - trolley_.lift_m);
@@ -51,7 +50,6 @@ class OwnRobot : public Site, Arm, Camera, Trolley, Clock {
     frame.color = std::move(seen.color);
     return frame;
   }
-
   // Clock: on a real robot std::chrono, where computing takes its time by itself.
   double now_s() const override { return time_s_; }
   void charge(double compute_s) override { time_s_ += compute_s; }
