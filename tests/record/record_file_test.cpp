@@ -67,8 +67,17 @@ std::vector<ViewEvent> write_some_run(const std::filesystem::path& dir) {
     EXPECT_TRUE(writer->end_segment(segment, segment * 3.0 + 3.0));
     EXPECT_TRUE(writer->set_work({{"candidates", 100 * (segment + 1), 0.1}}));
   }
-  EXPECT_TRUE(writer->add(MotionEvent{
-      "home", 1, 6.0, 1.25, {{0.0, 0.1}, {1.0, 0.2}, {1.0, 0.4}}, {0.0, 0.05, 0.0}, 1.1}));
+  MotionEvent home;
+  home.kind = "home";
+  home.segment = 1;
+  home.start_s = 6.0;
+  home.duration_s = 1.25;
+  home.waypoints = {{0.0, 0.1}, {1.0, 0.2}, {1.0, 0.4}};
+  home.deviations = {0.0, 0.05, 0.0};
+  home.joint_path_rad = 1.1;
+  home.ended = "aborted";
+  home.why = "a joint left its path";
+  EXPECT_TRUE(writer->add(home));
   EXPECT_TRUE(writer->finish(7.5, false));
   return views;
 }

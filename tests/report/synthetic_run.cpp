@@ -156,8 +156,19 @@ class SyntheticRun {
                            {"edge checks", 21'000LL * (segment + 1), 6.3 * (segment + 1)},
                            {"view evaluations", 3'100LL * (segment + 1), 0.4 * (segment + 1)},
                            {"search expansions", 900LL * (segment + 1), 0.2 * (segment + 1)}}));
-    EXPECT_TRUE(writer_->add(MotionEvent{"home", segment, t_s_, 2.0, {}, {}, 3.1}));
+    EXPECT_TRUE(writer_->add(motion("home", segment, t_s_, 2.0, 3.1)));
     t_s_ += 4.5;
+  }
+
+  static MotionEvent motion(const char* kind, int segment, double start_s, double duration_s,
+                            double path_rad) {
+    MotionEvent motion;
+    motion.kind = kind;
+    motion.segment = segment;
+    motion.start_s = start_s;
+    motion.duration_s = duration_s;
+    motion.joint_path_rad = path_rad;
+    return motion;
   }
 
   void take_view(int segment, double begin_s) {
@@ -166,8 +177,7 @@ class SyntheticRun {
     view.view = views_++;
     view.planning_s = rng_.uniform(0.02, 0.3);
     view.motion_s = 0.4 + std::exp(rng_.normal(0.1, 0.55));
-    const MotionEvent motion{"view", segment, t_s_ + view.planning_s, view.motion_s, {}, {}, 1.4};
-    EXPECT_TRUE(writer_->add(motion));
+    EXPECT_TRUE(writer_->add(motion("view", segment, t_s_ + view.planning_s, view.motion_s, 1.4)));
     t_s_ += view.planning_s + view.motion_s + 0.06;
     view.t_s = t_s_;
     view.target_kind = "roi";
