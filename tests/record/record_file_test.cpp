@@ -113,6 +113,8 @@ TEST(RecordFile, ReadsBackEveryEventExactly) {
   ASSERT_EQ(record->motions.size(), 1U);
   EXPECT_EQ(record->motions[0].waypoints[1][0], 1.0);
   EXPECT_EQ(record->motions[0].deviations, (std::vector<double>{0.0, 0.05, 0.0}));
+  EXPECT_EQ(record->motions[0].ended, "aborted");
+  EXPECT_EQ(record->motions[0].why, "a joint left its path");
   ASSERT_EQ(record->work.size(), 1U);
   EXPECT_EQ(record->work[0].count, 200);
   EXPECT_EQ(record->end_s, 7.5);
