@@ -74,6 +74,7 @@ TEST(CampaignPlan, ARunIsTheCommandAUserWouldType) {
   const auto words = run_arguments(plan, jobs[1], "here");
   const std::vector<std::string> expected = {"run",
                                              "missions/a.yaml",
+                                             "--no-replay",
                                              "--planner",
                                              "rvp",
                                              "--seed",

@@ -14,7 +14,7 @@ constexpr double kStill = 2e-3;  // rad or m
 /// A topic that says nothing for less is slow.
 constexpr double kSilent_s = 1.0;
 /// Joint states may be late by less.
-constexpr std::int64_t kClockJump = 5 * kNanosecondsPerSecond;
+constexpr std::int64_t kFarBack = 5 * kNanosecondsPerSecond;
 /// How long one waits before looking at the joints again.
 constexpr auto kGlance = std::chrono::milliseconds(20);
 
@@ -85,7 +85,7 @@ std::optional<Stamp> CameraFeed::counts_from() const {
 Stamp CameraFeed::last_given() const {
   const auto newest = joints_.newest();
   const std::lock_guard lock(mutex_);
-  const bool was_set_back = newest && given_ + offset_ > *newest + kClockJump;
+  const bool was_set_back = newest && given_ + offset_ > *newest + kFarBack;
   return was_set_back ? 0 : given_;
 }
 
