@@ -11,7 +11,8 @@ rm -rf build/api
 cmake -DTO=build/api/include -P cmake/InstalledHeaders.cmake
 # First what is not said, then the pages: they show also what needs no sentence.
 printf '%s\n' '@INCLUDE = docs/api/Doxyfile' EXTRACT_ALL=NO WARN_IF_UNDOCUMENTED=YES | doxygen -
-if grep -v -E 'Member .* is not documented|^$' build/api/warnings.txt >&2; then exit 1; fi
+# Messages of ROS are documented there.
+if grep -v -E 'Member .* is not documented|cdr/messages/.* is not documented|^$' build/api/warnings.txt >&2; then exit 1; fi
 doxygen docs/api/Doxyfile
 if [ -s build/api/warnings.txt ]; then cat build/api/warnings.txt >&2; exit 1; fi
 echo "build/api/html/index.html"

@@ -22,6 +22,7 @@ namespace canopeer::ros {
 template <class A>
 class ActionClient {
  public:
+  /// Whom a goal tells of what becomes of it; each may be empty.
   struct Events {
     std::function<void(const typename A::Feedback&)> on_feedback;
     std::function<void(GoalState)> on_status;  ///< when it changed
@@ -90,6 +91,7 @@ class ActionClient {
 template <class A>
 class ActionServer {
  public:
+  /// What a server does with goals.
   struct Handlers {
     std::function<bool(const UUID&, const typename A::Goal&)> accept;  ///< false: rejected
     std::function<void(const UUID&, const typename A::Goal&)> start;   ///< begin; returns at once

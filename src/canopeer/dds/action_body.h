@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "canopeer/dds/action.h"
+
 // Included by action.h: what its templates do.
 
 namespace canopeer::ros {

@@ -14,6 +14,7 @@ namespace canopeer::ros {
 
 class DiscoveryInfo;
 
+/// Who a node is, and where.
 struct NodeOptions {
   std::string name = "canopeer";
   std::string ns = "/";                       ///< namespace: "/", "/left_row"

@@ -65,11 +65,13 @@ struct Endpoint {
 };
 
 inline constexpr std::int64_t kUnknownSequence = -(std::int64_t{1} << 32);
+/// Which sample of which writer.
 struct SampleIdentity {
   Guid writer{};
   std::int64_t sequence = 0;
 };
 
+/// What a reader gets.
 struct Sample {
   Payload payload;
   SampleIdentity identity;
@@ -100,6 +102,7 @@ class Reader {
   [[nodiscard]] virtual std::vector<Guid> matched() const = 0;
 };
 
+/// Which domain, which networks, how much at once.
 struct ParticipantOptions {
   std::string name = "canopeer";
   int domain = 0;                       ///< 0 … 232

@@ -13,6 +13,7 @@
 
 namespace canopeer::ros {
 
+/// What stands behind `--ros-args`.
 struct RosArguments {
   /// `-r from:=to`, or of one node only: `-r node:from:=to`.
   struct Remap {

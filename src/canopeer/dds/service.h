@@ -29,6 +29,7 @@ class RawClient {
 /// Answers once, from any thread.
 using RawReply = std::function<void(const Payload&)>;
 using RawHandler = std::function<void(Payload&& request, RawReply reply)>;
+/// Answers as long as it lives.
 class RawServer {
  public:
   virtual ~RawServer() = default;

@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "canopeer/dds/service.h"
+
 // Included by service.h: what its templates do.
 
 namespace canopeer::ros {

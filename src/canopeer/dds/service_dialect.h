@@ -18,6 +18,7 @@ namespace canopeer::ros {
 /// speaks in neither way, or some of both.
 [[nodiscard]] Expected<Rmw> dialect_of(const std::set<Rmw>& servers);
 
+/// What rmw_cyclonedds puts before a request and its answer.
 struct RequestHead {
   std::uint64_t client = 0;
   std::int64_t sequence = 0;
@@ -26,6 +27,7 @@ struct RequestHead {
 
 [[nodiscard]] Payload with_head(const Payload& body, const RequestHead& head);
 
+/// A message behind such a head.
 struct HeadAndBody {
   RequestHead head;
   Payload body;

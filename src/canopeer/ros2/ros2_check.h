@@ -18,6 +18,7 @@ struct Ros2Finding {
   std::string text;  ///< what was found, and what to change; one line
 };
 
+/// How long is listened, whether the arm may move, and who is told.
 struct Ros2CheckOptions {
   double listen_s = 3.0;  ///< how long rates are measured
   bool move = false;      ///< moves the arm a little, to check mounting and clock of the camera

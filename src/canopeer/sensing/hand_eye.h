@@ -20,6 +20,7 @@ struct HandEyeFrame {
 /// Where the arm says the camera was: T_world_camera; nothing: not known then.
 using CameraPoseAt = std::function<std::optional<Pose>(double time_s)>;
 
+/// What is looked for, and how closely.
 struct HandEyeOptions {
   double max_time_offset_s = 0.15;  ///< either way
   int max_pairs = 250;              ///< of frames that are compared

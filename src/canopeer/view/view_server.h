@@ -13,6 +13,7 @@
 
 namespace canopeer {
 
+/// Where a page is served, and what is served beside it.
 struct ViewServerOptions {
   std::string address = "127.0.0.1";  ///< an address of this machine; "0.0.0.0": all of them
   std::uint16_t port = 8765;          ///< 0: any that is free
