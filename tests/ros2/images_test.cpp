@@ -1,6 +1,5 @@
 // Messages of cameras as pixels: encodings, compression, clouds, lenses; and what is damaged.
 #include <gtest/gtest.h>
-#include <jpeglib.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,6 +16,7 @@
 #include "canopeer/ros2/camera/compressed_image.h"
 #include "canopeer/ros2/camera/organised_cloud.h"
 #include "canopeer/ros2/camera/raw_image.h"
+#include "canopeer/sensing/jpeg.h"
 #include "canopeer/sensing/lens_distortion.h"
 #include "canopeer/sensing/png.h"
 
@@ -53,34 +53,8 @@ std::vector<std::uint8_t> octets(const std::vector<T>& values, bool big_endian =
 }
 
 std::vector<std::uint8_t> jpeg_of(const ColorImage& image) {
-  jpeg_compress_struct jpeg;
-  jpeg_error_mgr errors;
-  jpeg.err = jpeg_std_error(&errors);
-  jpeg_create_compress(&jpeg);
-  unsigned char* bytes = nullptr;
-  unsigned long size = 0;
-  jpeg_mem_dest(&jpeg, &bytes, &size);
-  jpeg.image_width = static_cast<JDIMENSION>(image.width());
-  jpeg.image_height = static_cast<JDIMENSION>(image.height());
-  jpeg.input_components = 3;
-  jpeg.in_color_space = JCS_RGB;
-  jpeg_set_defaults(&jpeg);
-  jpeg_set_quality(&jpeg, 95, TRUE);
-  jpeg_start_compress(&jpeg, TRUE);
-  for (int v = 0; v < image.height(); ++v) {
-    std::vector<JSAMPLE> row;
-    for (int u = 0; u < image.width(); ++u) {
-      const Rgb pixel = image.at(u, v);
-      row.insert(row.end(), {pixel.r, pixel.g, pixel.b});
-    }
-    JSAMPROW rows = row.data();
-    jpeg_write_scanlines(&jpeg, &rows, 1);
-  }
-  jpeg_finish_compress(&jpeg);
-  std::vector<std::uint8_t> out(bytes, bytes + size);
-  jpeg_destroy_compress(&jpeg);
-  std::free(bytes);
-  return out;
+  const std::string bytes = encode_jpeg(image, 95);
+  return {bytes.begin(), bytes.end()};
 }
 
 std::vector<std::uint8_t> png_of(const DepthImage& depth, double units_per_m) {

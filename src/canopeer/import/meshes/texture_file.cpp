@@ -1,15 +1,13 @@
 #include "canopeer/import/meshes/texture_file.h"
 
-#include <jpeglib.h>
 #include <png.h>
 
-#include <csetjmp>
-#include <cstdio>  // jpeglib.h needs it and does not say so
-#include <cstring>
+#include <utility>
 #include <vector>
 
 #include "canopeer/base/atomic_file.h"
 #include "canopeer/import/meshes/picture_library.h"
+#include "canopeer/sensing/jpeg.h"
 
 namespace canopeer {
 namespace {
@@ -46,65 +44,13 @@ Expected<Texture> decode_png(std::string_view bytes, const std::string& name) {
   return texture;
 }
 
-struct JpegErrors {
-  jpeg_error_mgr manager;
-  std::jmp_buf jump;
-  char message[JMSG_LENGTH_MAX];
-};
-
-/// libjpeg leaves by longjmp when a file is broken: all with a destructor lives in the caller.
-bool decode_jpeg_into(std::string_view bytes, JpegErrors* errors, std::vector<std::uint8_t>* pixels,
-                      int* width, int* height) {
-  jpeg_decompress_struct jpeg;
-  std::memset(&jpeg, 0, sizeof jpeg);
-  jpeg.err = jpeg_std_error(&errors->manager);
-  errors->manager.error_exit = [](j_common_ptr common) {
-    auto* const self = reinterpret_cast<JpegErrors*>(common->err);
-    self->manager.format_message(common, self->message);
-    std::longjmp(self->jump, 1);
-  };
-  errors->manager.output_message = [](j_common_ptr) {};
-  if (setjmp(errors->jump) != 0) {
-    jpeg_destroy_decompress(&jpeg);
-    return false;
-  }
-  jpeg_create_decompress(&jpeg);
-  jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
-  jpeg_read_header(&jpeg, TRUE);
-  jpeg.out_color_space = JCS_RGB;
-  if (static_cast<std::size_t>(jpeg.image_width) * jpeg.image_height > kMostPicturePixels) {
-    std::strcpy(errors->message, "the picture is too big");
-    jpeg_destroy_decompress(&jpeg);
-    return false;
-  }
-  jpeg_start_decompress(&jpeg);
-  *width = static_cast<int>(jpeg.output_width);
-  *height = static_cast<int>(jpeg.output_height);
-  const std::size_t row_bytes = 3U * jpeg.output_width;
-  pixels->resize(row_bytes * jpeg.output_height);
-  while (jpeg.output_scanline < jpeg.output_height) {
-    JSAMPROW row = pixels->data() + row_bytes * jpeg.output_scanline;
-    jpeg_read_scanlines(&jpeg, &row, 1);
-  }
-  jpeg_finish_decompress(&jpeg);
-  jpeg_destroy_decompress(&jpeg);
-  return true;
-}
-
+/// What is missing of one that was cut off is grey.
 Expected<Texture> decode_jpeg(std::string_view bytes, const std::string& name) {
-  JpegErrors errors;
-  std::vector<std::uint8_t> pixels;
-  int width = 0;
-  int height = 0;
-  if (!decode_jpeg_into(bytes, &errors, &pixels, &width, &height)) {
-    return fail(name + ": " + errors.message);
-  }
+  auto color = parse_jpeg(bytes, {kMostPicturePixels, false});
+  if (!color) return fail_in(name, color.error());
   Texture texture;
   texture.name = name;
-  texture.color = ColorImage(width, height);
-  for (std::size_t i = 0; i < texture.color.pixels().size(); ++i) {
-    texture.color.pixels()[i] = {pixels[3 * i], pixels[3 * i + 1], pixels[3 * i + 2]};
-  }
+  texture.color = std::move(*color);
   return texture;
 }
 

@@ -1,14 +1,10 @@
 #include "canopeer/replay/frames/picture_frames.h"
 
-#include <cstdio>
-// After cstdio, which it does not include itself.
-#include <jpeglib.h>
-
 #include <algorithm>
-#include <csetjmp>
-#include <cstdlib>
+#include <limits>
 
 #include "canopeer/replay/frames/frame_head.h"
+#include "canopeer/sensing/jpeg.h"
 #include "canopeer/sensing/png.h"
 
 namespace canopeer::frames {
@@ -42,53 +38,6 @@ ColorImage shrink(const ColorImage& image, int factor) {
   return small;
 }
 
-/// libjpeg reports errors by a call that must not return. Here it can only run out of memory.
-[[noreturn]] void give_up(j_common_ptr info) {
-  std::longjmp(*static_cast<std::jmp_buf*>(info->client_data), 1);
-}
-
-/// Everything with a destructor lives in the caller.
-bool encode_jpeg(const ColorImage& image, unsigned char** bytes, unsigned long* size) {
-  jpeg_compress_struct info{};
-  jpeg_error_mgr errors{};
-  std::jmp_buf failed;
-  info.err = jpeg_std_error(&errors);
-  errors.error_exit = give_up;
-  info.client_data = &failed;
-  if (setjmp(failed) != 0) {
-    jpeg_destroy_compress(&info);
-    return false;
-  }
-  jpeg_create_compress(&info);
-  jpeg_mem_dest(&info, bytes, size);
-  info.image_width = static_cast<JDIMENSION>(image.width());
-  info.image_height = static_cast<JDIMENSION>(image.height());
-  info.input_components = 3;
-  info.in_color_space = JCS_RGB;
-  jpeg_set_defaults(&info);
-  jpeg_set_quality(&info, kQuality, TRUE);
-  jpeg_start_compress(&info, TRUE);
-  static_assert(sizeof(Rgb) == 3);
-  while (info.next_scanline < info.image_height) {
-    auto* row = const_cast<JSAMPROW>(
-        reinterpret_cast<const JSAMPLE*>(&image.at(0, static_cast<int>(info.next_scanline))));
-    jpeg_write_scanlines(&info, &row, 1);
-  }
-  jpeg_finish_compress(&info);
-  jpeg_destroy_compress(&info);
-  return true;
-}
-
-std::string jpeg_of(const ColorImage& image) {
-  unsigned char* bytes = nullptr;
-  unsigned long size = 0;
-  const bool done = encode_jpeg(image, &bytes, &size);
-  std::string jpeg;
-  if (done) jpeg.assign(reinterpret_cast<const char*>(bytes), size);
-  std::free(bytes);
-  return jpeg;
-}
-
 Json picture_head(int view, const char* what, int width, int height, const char* mime) {
   Json head = head_of("picture");
   head["view"] = view;
@@ -102,7 +51,7 @@ Json picture_head(int view, const char* what, int width, int height, const char*
 Frame color_picture(int view, const ColorImage& color) {
   const ColorImage small = shrink(color, shrink_factor(color.width(), kColorWidth));
   return frame_of(picture_head(view, "color", small.width(), small.height(), "image/jpeg"),
-                  jpeg_of(small));
+                  encode_jpeg(small, kQuality));
 }
 
 /// The middle pixel of each square: means of depth would make surfaces that are not there.

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "canopeer/dds/names.h"
 #include "canopeer/ros2/time/figure.h"
 
 namespace canopeer::ros {
@@ -75,7 +76,9 @@ void JointListener::take(const sensor_msgs::JointState& state, Steady::time_poin
   for (std::size_t i = 0; i < state.name.size(); ++i) {
     const auto place = places_.find(state.name[i]);
     if (place == places_.end()) {
-      if (strangers_.size() < kMostStrangers) strangers_.insert(state.name[i]);
+      if (strangers_.size() < kMostStrangers && is_short_name(state.name[i])) {
+        strangers_.insert(state.name[i]);
+      }
       continue;
     }
     if (!std::isfinite(state.position[i])) {

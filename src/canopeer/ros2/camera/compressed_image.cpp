@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include "canopeer/base/byte_order.h"
-#include "canopeer/ros2/camera/jpeg.h"
 #include "canopeer/ros2/camera/raw_image.h"
+#include "canopeer/sensing/jpeg.h"
 #include "canopeer/sensing/png.h"
 
 namespace canopeer::ros {
@@ -32,6 +32,12 @@ Expected<void> check_png_size(std::string_view bytes) {
 Expected<ColorImage> color_from_png(std::string_view bytes) {
   if (auto size = check_png_size(bytes); !size) return tl::unexpected(size.error());
   return parse_png(bytes);
+}
+
+Expected<ColorImage> color_from_jpeg(std::string_view bytes) {
+  auto image = parse_jpeg(bytes, {kMostImagePixels});
+  if (!image) return fail_in("JPEG", image.error());
+  return image;
 }
 
 /// `units_per_m` of the samples; 1: the samples themselves.
@@ -65,7 +71,7 @@ Expected<DepthImage> inverse_depth(std::string_view data) {
 Expected<ColorImage> color_of(const sensor_msgs::CompressedImage& message) {
   const std::string_view bytes = text_of(message.data);
   if (is_png(bytes)) return color_from_png(bytes);
-  if (bytes.substr(0, 2) == "\xff\xd8") return decode_jpeg_image(message.data);
+  if (bytes.substr(0, 2) == "\xff\xd8") return color_from_jpeg(bytes);
   return fail("compressed images are '" + message.format + "'; JPEG and PNG are read");
 }
 
