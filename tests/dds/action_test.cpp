@@ -158,7 +158,8 @@ TEST(SlowAction, AGoalAcceptedTooLateIsCancelledThen) {
   const auto status =
       must(there->advertise<action_msgs::GoalStatusArray>(base + "status", kLatchedQos));
   const auto client = must(ActionClient<Follow>::make(*here, kAction));
-  ASSERT_FALSE(client->send(goal_for("elbow"), {}, 10s)) << "not all is there yet";
+  const auto nobodys = must(ActionClient<Follow>::make(*here, "/nobody/follow"));
+  ASSERT_FALSE(nobodys->send(goal_for("elbow"), {}, 10s)) << "its server is not there";
   ASSERT_TRUE(eventually([&] { return client->ready(); }));
   const auto sent = client->send(goal_for("elbow"), {}, 100ms);
   ASSERT_FALSE(sent);
@@ -166,7 +167,8 @@ TEST(SlowAction, AGoalAcceptedTooLateIsCancelledThen) {
   ASSERT_TRUE(eventually([&] {
     const std::lock_guard lock(mutex);
     return cancels == 1 && reply.has_value();
-  }));
+  })) << cancels
+      << " cancels; the goal " << (reply ? "came" : "did not come");
   (*reply)({true, {}});
   EXPECT_TRUE(eventually([&] { return cancels == 2; }));
 }
