@@ -50,7 +50,15 @@ struct FrameTaken {
   std::shared_ptr<const Detection> detection;  ///< fruit pixels, of the frame's size
 };
 
-/// The voxel map changed by the frame of this view.
+/// A frame was taken on the way and everything learnt from it. MapChanged and FruitsFound come
+/// after several of them.
+struct FrameOnTheWay {
+  FrameEvent frame;
+  std::shared_ptr<const RgbdFrame> images;     ///< with pose and time; the robot masked out
+  std::shared_ptr<const Detection> detection;  ///< fruit pixels, of the frame's size
+};
+
+/// The voxel map changed by the frame of this view, or by frames on the way from it.
 struct MapChanged {
   double t_s = 0.0;
   int view = 0;
@@ -116,9 +124,9 @@ struct RunEnded {
   bool interrupted = false;
 };
 
-using Event =
-    std::variant<RunBegun, SegmentBegun, SegmentEnded, FrameTaken, MapChanged, FruitsFound, Planned,
-                 MotionBegun, MotionEnded, Fault, Steered, WorkDone, RunEnded>;
+using Event = std::variant<RunBegun, SegmentBegun, SegmentEnded, FrameTaken, FrameOnTheWay,
+                           MapChanged, FruitsFound, Planned, MotionBegun, MotionEnded, Fault,
+                           Steered, WorkDone, RunEnded>;
 
 /// What of an event is made only on demand. A listener is asked for it once, when it is registered.
 struct EventNeeds {

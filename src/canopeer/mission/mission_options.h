@@ -21,6 +21,33 @@ struct SegmentPlan {
   TrolleyState trolley;
   int side = 1;      ///< 1 or 2: which of the robot's boxes and home states
   std::string name;  ///< for people, e.g. "stop 2, side 1"
+  /// Its budget, s; 0: the mission's segment_time_s.
+  double time_s = 0.0;
+  /// Stops along the row that its planner drives between itself; empty: it stays at `trolley`.
+  std::vector<TrolleyState> row{};
+};
+
+/// Frames that are taken while the arm or the trolley moves. The paper takes none.
+struct OnTheWayOptions {
+  double hz = 0.0;  ///< so many a second at most; 0: none
+  /// A frame is left out when its image moved farther than this during the exposure, px, where it
+  /// moved fastest, at the median distance of what it shows. 0: any blur.
+  double max_blur_px = 1.0;
+  double exposure_s = 0.005;  ///< what blur is reckoned with
+  /// The arm moves no faster than `max_blur_px` allows at `sharp_distance_m`.
+  bool keep_sharp = false;
+  double sharp_distance_m = 0.5;
+  /// A frame is left out when the camera has moved less than both since the last one that was not.
+  double new_after_m = 0.01;
+  double new_after_rad = 0.02;
+  int queue = 2;  ///< frames that wait while one is worked on; who comes then is too late
+  double tell_every_s = 0.25;  ///< how often the planner hears of what they changed
+};
+
+/// Whose clock a mission's time is counted by.
+enum class MissionClock {
+  paper,  ///< each segment's own; transitions are not counted
+  whole   ///< one that never stops; see MissionTime
 };
 
 /// Everything a mission does, with no word about the world it does it in.
@@ -28,6 +55,8 @@ struct MissionOptions {
   std::string name = "mission";
   std::vector<SegmentPlan> segments;
   double segment_time_s = 60.0;  ///< transitions between segments are not counted in it
+  MissionClock clock = MissionClock::paper;
+  OnTheWayOptions on_the_way;
   std::string planner = "vmp";
   std::uint64_t seed = 1;
   CostTable costs;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -7,6 +9,7 @@
 #include "canopeer/base/expected.h"
 #include "canopeer/robot/joint_path.h"
 #include "canopeer/robot/robot_model.h"
+#include "canopeer/sensing/camera_twist.h"
 #include "canopeer/sensing/rgbd_frame.h"
 
 // What a mission needs of the world, simulated or real. C++17-clean: robot adapters include this.
@@ -74,16 +77,53 @@ class Trolley {
  public:
   virtual ~Trolley() = default;
   [[nodiscard]] virtual TrolleyState state() const = 0;
-  /// Drives there and waits; the arm must be home.
+  /// Drives there and waits; the arm must stand still where it keeps clear of everything.
   [[nodiscard]] virtual Expected<void> move_to(const TrolleyState& goal) = 0;
+
+  /// The same in two calls, for those who look around on the way: sets out, along the row no faster
+  /// than `max_travel_m_s` (0: as fast as it can), and returns how long it will take, s; 0: not
+  /// known. The error: it cannot drive that slowly, or the goal is out of reach.
+  [[nodiscard]] virtual Expected<double> start(const TrolleyState& goal, double max_travel_m_s) {
+    if (max_travel_m_s > 0.0) return fail("this trolley cannot be told how fast to drive");
+    goal_ = goal;
+    return 0.0;
+  }
+  /// Waits for the end of the drive started last.
+  [[nodiscard]] virtual Expected<void> finish() { return move_to(goal_); }
+
+ private:
+  TrolleyState goal_;
+};
+
+/// A frame taken whether things moved or not, before anybody has looked at its images.
+struct StreamedFrame {
+  double time_s = 0.0;  ///< mission time in the middle of the exposure, by its stamp
+  Pose T_world_camera = Pose::Identity();  ///< then, as the robot says
+  CameraTwist twist;                       ///< then
+  Configuration q;                         ///< arm then, rad
+  TrolleyState trolley;                    ///< then
+  /// Its images, with this time and pose: decoded, or rendered, at this call. Once.
+  std::function<Expected<RgbdFrame>()> images;
 };
 
 /// The camera at the arm's flange.
 class Camera {
  public:
   virtual ~Camera() = default;
-  /// One frame from where the camera is now, with pose and time.
+  /// One frame from where the camera is now, with pose and time. The arm stands still.
   [[nodiscard]] virtual Expected<RgbdFrame> capture() = 0;
+
+  /// From now on frames are kept for arrived(), at most so many a second; 0: no more. The error:
+  /// this camera gives frames at rest only.
+  [[nodiscard]] virtual Expected<void> stream(double hz) {
+    if (hz > 0.0) return fail("this camera gives no frames while it moves");
+    return {};
+  }
+  /// The frames that have arrived since the last call, by time; the oldest may be lost where nobody
+  /// asks for long. May be called in another thread than the arm's and the trolley's methods.
+  [[nodiscard]] virtual Expected<std::vector<StreamedFrame>> arrived() {
+    return std::vector<StreamedFrame>();
+  }
 };
 
 /// The four together; the pointed-to objects outlive the mission.

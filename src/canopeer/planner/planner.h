@@ -15,6 +15,7 @@
 #include "canopeer/planner/plan_sketch.h"
 #include "canopeer/robot/collision_checker.h"
 #include "canopeer/robot/exact_checker.h"
+#include "canopeer/robot/joint_path.h"
 #include "canopeer/robot/view_ik.h"
 #include "canopeer/viewgraph/segment_frame.h"
 #include "canopeer/viewgraph/view_pose.h"
@@ -31,15 +32,23 @@ struct ViewMotion {
       predicted_gain;  ///< unknown voxels this view is expected to add; nothing: not predicted
 };
 
+/// A drive along the row, for planners that look from the moving trolley.
+struct RowDrive {
+  TrolleyState goal;
+  double max_travel_m_s = 0.0;  ///< 0: as fast as it can
+};
+
 /// What the arm should do now.
 struct Decision {
   enum class Action {
-    move,  ///< take `motion`
-    wait,  ///< nothing to go for yet; ask again after some background work
-    stuck  ///< no way on from here; a move home may help
+    move,   ///< take `motion`
+    wait,   ///< nothing to go for yet; ask again after some background work
+    stuck,  ///< no way on from here; a move home may help
+    drive   ///< drive the trolley: `drive`; the arm stays as it is
   };
   Action action = Action::wait;
   ViewMotion motion;
+  RowDrive drive{};
 };
 
 /// The map as one frame left it, its distances and a checker on them, for readers in other threads
@@ -73,6 +82,9 @@ struct PlanningScene {
   std::shared_ptr<const MapSnapshot> snapshot{};
   SegmentFrame segment;
   std::uint64_t seed = 1;
+  /// Frames are wanted on the way, and the arm moves no faster than this; nothing: none are, or as
+  /// fast as it can.
+  std::optional<ImageMotionLimit> sharp{};
 };
 
 /// What has changed since the last call of Planner::map_changed.

@@ -18,7 +18,8 @@ struct RunHeader {
   std::string compute_table;
   int segments = 0;  ///< planned
   double segment_time_s = 60.0;
-  std::string settings_json;  ///< every effective option, as a JSON object in text
+  double mission_time_s = 0.0;  ///< by a clock that never stops; 0: each segment has its own
+  std::string settings_json;    ///< every effective option, as a JSON object in text
 };
 
 /// A segment of a mission: from when to when, and where it looks.
@@ -76,6 +77,27 @@ struct ViewEvent {
   std::vector<FruitSnapshot> fruits;  ///< all fruits known after the frame
 };
 
+/// What became of frames that came on the way.
+struct FrameCounts {
+  int fused = 0;
+  int late = 0;     ///< perception was busy
+  int blurred = 0;  ///< more than was allowed
+  int alike = 0;    ///< the camera had hardly moved since the last one
+};
+
+/// One frame taken while the arm or the trolley moved, and fused.
+struct FrameEvent {
+  int segment = 0;
+  std::string during;                      ///< the kind of the motion: "view", "home", "trolley"
+  double t_s = 0.0;                        ///< when it was taken, mission time
+  Pose T_world_camera = Pose::Identity();  ///< as the robot said
+  double blur_px = 0.0;  ///< how far its image moved during the exposure, where it moved fastest
+  std::int64_t realised_gain = 0;  ///< as in ViewEvent
+  std::int64_t fused_points = 0;
+  std::optional<PixelHits> pixels;
+  std::vector<FruitSnapshot> fruits;  ///< all fruits known after the frame
+};
+
 /// One motion of the arm or the trolley.
 struct MotionEvent {
   std::string kind;  ///< "view", "home", "trolley"
@@ -93,6 +115,7 @@ struct MotionEvent {
   std::string ended = "arrived";  ///< or why not: "refused", "aborted", "cancelled", "preempted",
                                   ///< "stopped", "withheld"
   std::string why;                ///< in words
+  std::optional<FrameCounts> frames{};  ///< on the way; nothing: none were wanted
 };
 
 /// Sum of work done, e.g. {"candidates", 12345, 1.2}: count and simulated seconds charged for it.
@@ -122,6 +145,7 @@ struct RunRecord {
   RunHeader header;
   std::vector<SegmentEvent> segments;
   std::vector<ViewEvent> views;
+  std::vector<FrameEvent> frames;  ///< on the way
   std::vector<MotionEvent> motions;
   std::vector<SteeringEvent> steering;
   std::vector<FaultEvent> faults;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "canopeer/robot/robot_model.h"
 
@@ -15,6 +16,8 @@ struct SegmentFrame {
   Box workspace_base;         ///< camera positions, arm base frame
   Box sampling_region_world;  ///< target positions, world
   Configuration home;         ///< rad
+  /// Where the trolley may drive in it, one after the other along the row; empty: it stands.
+  std::vector<TrolleyState> row{};
 };
 
 }  // namespace canopeer
