@@ -27,7 +27,7 @@ struct CameraMotionOptions {
   /// say too late.
   double stamp_offset_s = 0.0;
   /// Most sub-frames that are rendered of a frame. About one is needed per pixel of motion.
-  int sub_frames = 15;
+  int sub_frames = 9;
 
   [[nodiscard]] bool any() const;
   /// The error names the first figure that cannot be.

@@ -1,7 +1,10 @@
 #include "canopeer/render/motion/image_motion.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 namespace canopeer {
 
@@ -13,23 +16,25 @@ double image_motion(const DepthImage& depth, const CameraRays& rays, const Pose&
   const CameraIntrinsics& k = rays.intrinsics();
   const Pose T_before = T_world_before.inverse() * T_world_camera;
   const Pose T_after = T_world_after.inverse() * T_world_camera;
-  double farthest = 0.0;
+  std::vector<double> moved;
   for (int v = kGrid / 2; v < depth.height(); v += kGrid) {
     for (int u = kGrid / 2; u < depth.width(); u += kGrid) {
       const double z = static_cast<double>(depth.at(u, v));
       const Vec3 ray = rays.ray(u, v);
       const Vec3 p = (z > 0.0 ? z : kFar) * ray;
-      double moved = 0.0;
+      moved.push_back(0.0);
       for (const Pose* T : {&T_before, &T_after}) {
         const Vec3 q = *T * p;
-        if (q.z() < kNear) return std::numeric_limits<double>::infinity();
         const Vec3 step = q / q.z() - ray;
-        moved += Eigen::Vector2d(k.fx * step.x(), k.fy * step.y()).norm();
+        moved.back() += q.z() < kNear ? std::numeric_limits<double>::infinity()
+                                      : std::hypot(k.fx * step.x(), k.fy * step.y());
       }
-      farthest = std::max(farthest, moved);
     }
   }
-  return farthest;
+  if (moved.empty()) return 0.0;
+  const auto most = moved.begin() + static_cast<std::ptrdiff_t>(moved.size() * 9 / 10);
+  std::nth_element(moved.begin(), most, moved.end());
+  return *most;
 }
 
 }  // namespace canopeer

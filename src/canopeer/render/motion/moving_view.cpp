@@ -16,22 +16,65 @@ namespace {
 
 std::size_t index_of(int i) { return static_cast<std::size_t>(i); }
 
+/// The rows that anybody asks for of a sub-frame.
+struct SubFrame {
+  RenderedView view;
+  int first_row = 0;
+
+  [[nodiscard]] int row(int v) const { return v - first_row; }
+};
+
+/// What each row sees.
+struct Rows {
+  std::vector<RowExposure> color;
+  std::vector<RowExposure> depth;
+
+  Rows(const Shutter& shutter, int rows) {
+    for (int v = 0; v < rows; ++v) {
+      color.push_back(shutter.color_row(v));
+      depth.push_back(shutter.depth_row(v));
+    }
+  }
+  /// The first and the last row that see sub-frame `i`.
+  [[nodiscard]] std::pair<int, int> that_see(int i) const {
+    const auto sees = [&](const RowExposure& row) { return i >= row.first && i <= row.last(); };
+    std::pair<int, int> found{0, -1};
+    for (std::size_t v = 0; v < color.size(); ++v) {
+      if (!sees(color[v]) && !sees(depth[v])) continue;
+      if (found.second < 0) found.first = static_cast<int>(v);
+      found.second = static_cast<int>(v);
+    }
+    return found;
+  }
+};
+
+/// Renders what anybody sees of a sub-frame. Behind a lens all of it: where the pixels of a part
+/// look would have to be reckoned anew.
+SubFrame render_rows(const Renderer& renderer, const CameraRays& rays, const Pose& T_world_camera,
+                     std::pair<int, int> rows) {
+  CameraIntrinsics part = rays.intrinsics();
+  if (!rays.lens().none() || rows.second < 0) return {renderer.render(rays, T_world_camera), 0};
+  part.height = rows.second - rows.first + 1;
+  part.cy -= rows.first;
+  return {renderer.render(part, T_world_camera), rows.first};
+}
+
 /// One image of sub-frames, row by row.
 class Exposure {
  public:
-  Exposure(const std::vector<RenderedView>& views, const Shutter& shutter, double edge_step,
+  Exposure(const std::vector<SubFrame>& frames, const Rows& rows, double edge_step,
            std::uint64_t key)
-      : views_(views), shutter_(shutter), edge_step_(edge_step), key_(key) {}
+      : frames_(frames), rows_(rows), edge_step_(edge_step), key_(key) {}
 
   void expose(int v, RenderedView* out) const {
-    const RowExposure color = shutter_.color_row(v);
+    const RowExposure& color = rows_.color[index_of(v)];
     expose_color(v, color, &out->color);
-    const Labels& seen = views_[index_of(color.middle)].labels;
+    const SubFrame& middle = frames_[index_of(color.middle)];
     for (int u = 0; u < out->color.width(); ++u) {
-      out->labels.fruit.at(u, v) = seen.fruit.at(u, v);
-      out->labels.kind.at(u, v) = seen.kind.at(u, v);
+      out->labels.fruit.at(u, v) = middle.view.labels.fruit.at(u, middle.row(v));
+      out->labels.kind.at(u, v) = middle.view.labels.kind.at(u, middle.row(v));
     }
-    const RowExposure depth = shutter_.depth_row(v);
+    const RowExposure& depth = rows_.depth[index_of(v)];
     for (int u = 0; u < out->depth.width(); ++u) out->depth.at(u, v) = depth_of(u, v, depth);
   }
 
@@ -42,7 +85,8 @@ class Exposure {
     std::vector<std::uint32_t> sum(3 * width, RowExposure::kWhole / 2);  // so that it rounds
     for (std::size_t i = 0; i < row.shares.size(); ++i) {
       const std::uint32_t share = row.shares[i];
-      const Rgb* seen = &views_[index_of(row.first) + i].color.at(0, v);
+      const SubFrame& frame = frames_[index_of(row.first) + i];
+      const Rgb* seen = &frame.view.color.at(0, frame.row(v));
       for (std::size_t u = 0; u < width; ++u) {
         sum[3 * u] += share * light.of(seen[u].r);
         sum[3 * u + 1] += share * light.of(seen[u].g);
@@ -59,7 +103,10 @@ class Exposure {
   }
 
   float depth_of(int u, int v, const RowExposure& row) const {
-    const auto depth = [&](int i) { return views_[index_of(i)].depth.at(u, v); };
+    const auto depth = [&](int i) {
+      const SubFrame& frame = frames_[index_of(i)];
+      return frame.view.depth.at(u, frame.row(v));
+    };
     float near = depth(row.middle);
     float far = near;
     for (int i = row.first; i <= row.last(); ++i) {
@@ -82,8 +129,8 @@ class Exposure {
     return depth(i);
   }
 
-  const std::vector<RenderedView>& views_;
-  const Shutter& shutter_;
+  const std::vector<SubFrame>& frames_;
+  const Rows& rows_;
   double edge_step_;
   std::uint64_t key_;
 };
@@ -102,16 +149,17 @@ RenderedView render_moving(const Renderer& renderer, const CameraRays& rays,
   const int count = sub_frames_for(moved_px, motion.sub_frames);
   if (count == 1) return middle;
 
-  const int rows = rays.intrinsics().height;
-  const Shutter shutter(motion, rows, count);
-  std::vector<RenderedView> views;
+  const Shutter shutter(motion, middle.depth.height(), count);
+  const Rows rows(shutter, middle.depth.height());
+  RenderedView out = middle;
+  std::vector<SubFrame> frames;
   for (int i = 0; i < count; ++i) {
-    views.push_back(i == count / 2 ? std::move(middle)
-                                   : renderer.render(rays, track(t_s + shutter.time_s(i))));
+    frames.push_back(i == count / 2 ? SubFrame{std::move(middle), 0}
+                                    : render_rows(renderer, rays, track(t_s + shutter.time_s(i)),
+                                                  rows.that_see(i)));
   }
-  RenderedView out = views[index_of(count / 2)];
-  const Exposure exposure(views, shutter, edge_step, pixel_hash(key ^ 0x626c7572ULL));
-  oneapi::tbb::parallel_for(0, rows, [&](int v) { exposure.expose(v, &out); });
+  const Exposure exposure(frames, rows, edge_step, pixel_hash(key ^ 0x626c7572ULL));
+  oneapi::tbb::parallel_for(0, out.depth.height(), [&](int v) { exposure.expose(v, &out); });
   return out;
 }
 
