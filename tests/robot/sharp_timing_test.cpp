@@ -73,7 +73,12 @@ TEST(SharpTiming, KeepsAllLimitsAtEveryInstantOnRandomPaths) {
     ASSERT_TRUE(std::isfinite(duration_s));
     ASSERT_EQ(motion.at(duration_s), path.waypoints.back());
     const double unlimited_s = PathMotion(path, limits).duration_s();
-    ASSERT_GE(duration_s, unlimited_s * (1.0 - 1e-9)) << "trial " << trial;
+    // Arcs are cut more finely where image motion limits, which may save what the coarse grid gives
+    // away: then a fine one judges.
+    if (duration_s < unlimited_s * (1.0 - 1e-9)) {
+      ASSERT_FALSE(path.deviations.empty());
+      ASSERT_GE(duration_s, PathMotion(path, limits, 0.002).duration_s()) << "trial " << trial;
+    }
     if (duration_s > 1.01 * unlimited_s) ++limited;
     for (int k = 0; k < 20; ++k) {
       const double t_s = random.uniform() * duration_s;
@@ -149,7 +154,8 @@ TEST(SharpTiming, ABoundHoldsBetweenThePlacesThatAreLookedAt) {
     const RobotModel& robot = *robots()[random.index(2)];
     const JointPath path = random_path(random, robot);
     const ImageMotion image(robot, *path.sharp);
-    for (const BlendedPath::Piece& piece : BlendedPath(path).pieces()) {
+    const BlendedPath blended(path);
+    for (const BlendedPath::Piece& piece : blended.pieces()) {
       const double begin = piece.begin + random.uniform(0.0, 0.9) * piece.length;
       const double length = std::min(random.uniform(0.01, 0.6), piece.begin + piece.length - begin);
       const auto along = [&](double s) {
