@@ -14,15 +14,19 @@ std::optional<ImageMotion> image_limit(const JointPath& path, const RobotModel& 
   return ImageMotion(robot, *path.sharp);
 }
 
+const ImageMotion* pointer_to(const std::optional<ImageMotion>& image) {
+  return image ? &*image : nullptr;
+}
+
 }  // namespace
 
 PathMotion::PathMotion(const std::vector<Configuration>& waypoints, const JointLimits& limits,
                        const PathTimingOptions& options)
     : PathMotion(JointPath{waypoints, std::vector<double>(waypoints.size(), options.max_deviation)},
-                 limits, std::nullopt, options) {}
+                 limits, nullptr, options) {}
 
 PathMotion::PathMotion(const JointPath& path, const JointLimits& limits, double arc_step_rad)
-    : PathMotion(path, limits, std::nullopt, {.arc_step_rad = arc_step_rad}) {}
+    : PathMotion(path, limits, nullptr, {.arc_step_rad = arc_step_rad}) {}
 
 PathMotion::PathMotion(const JointPath& path, const RobotModel& robot,
                        const PathTimingOptions& options)
@@ -30,13 +34,12 @@ PathMotion::PathMotion(const JointPath& path, const RobotModel& robot,
 
 PathMotion::PathMotion(const JointPath& path, const RobotModel& robot, const JointLimits& limits,
                        const PathTimingOptions& options)
-    : PathMotion(path, limits, image_limit(path, robot), options) {}
+    : PathMotion(path, limits, pointer_to(image_limit(path, robot)), options) {}
 
-PathMotion::PathMotion(const JointPath& path, const JointLimits& limits,
-                       const std::optional<ImageMotion>& image, const PathTimingOptions& options)
+PathMotion::PathMotion(const JointPath& path, const JointLimits& limits, const ImageMotion* image,
+                       const PathTimingOptions& options)
     : path_(path), end_(path.waypoints.back()) {
-  time_path(TimingGrid(path_, limits, image ? &*image : nullptr,
-                       {options.arc_step_rad, options.image_step}));
+  time_path(TimingGrid(path_, limits, image, {options.arc_step_rad, options.image_step}));
   const bool rounded = std::any_of(path_.pieces().begin(), path_.pieces().end(),
                                    [](const auto& piece) { return piece.radius > 0.0; });
   if (!rounded) return;

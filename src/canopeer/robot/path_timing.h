@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "canopeer/robot/robot_model.h"
@@ -57,8 +56,8 @@ class PathMotion {
   [[nodiscard]] const BlendedPath& path() const { return path_; }
 
  private:
-  PathMotion(const JointPath& path, const JointLimits& limits,
-             const std::optional<ImageMotion>& image, const PathTimingOptions& options);
+  PathMotion(const JointPath& path, const JointLimits& limits, const ImageMotion* image,
+             const PathTimingOptions& options);
   void time_path(const TimingGrid& grid);
   struct Instant {  // place, speed and acceleration along the path
     int piece = 0;
