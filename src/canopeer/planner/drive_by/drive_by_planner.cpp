@@ -34,16 +34,17 @@ DriveByPlanner::DriveByPlanner(const DriveByOptions& options) : options_(options
 void DriveByPlanner::begin_segment(const PlanningScene& scene) {
   scene_ = scene;
   mover_ = std::make_unique<ViewMover>(scene, options_.motion);
-  row_ = row_ahead(scene.segment.workspace_base, sampling_region_base(scene.segment),
-                   options_.row_distance_m);
-  passes_ = plan_passes();
+  region_base_ = sampling_region_base(scene.segment);
+  plan_passes();
   next_ = 0;
   motions_ = drives_ = 0;
   parked_.reset();
   ever_parked_ = false;
 }
 
-std::vector<DriveByPlanner::Pass> DriveByPlanner::plan_passes() const {
+void DriveByPlanner::plan_passes() {
+  row_ = row_ahead(scene_.segment.workspace_base, region_base_, options_.row_distance_m);
+  passes_.clear();
   std::vector<double> lifts;
   for (const TrolleyState& stop : scene_.segment.row) {
     if (std::find(lifts.begin(), lifts.end(), stop.lift_m) == lifts.end())
@@ -52,21 +53,18 @@ std::vector<DriveByPlanner::Pass> DriveByPlanner::plan_passes() const {
   if (lifts.empty()) lifts.push_back(scene_.segment.trolley.lift_m);
   std::vector<Vec3> directions = scan_directions(row_, options_.tilt_rad);
   if (options_.tilt_rad == 0.0) directions.resize(1);
-  std::vector<Pass> passes;
   for (const Vec3& direction : directions) {
     for (const double lift : lifts) {
-      for (const double height : heights()) passes.push_back({lift, height, direction});
+      for (const double height : heights()) passes_.push_back({lift, height, direction});
     }
     std::reverse(lifts.begin(), lifts.end());
   }
-  return passes;
 }
 
 std::vector<double> DriveByPlanner::heights() const {
   const Box& workspace = scene_.segment.workspace_base;
-  const Box region = sampling_region_base(scene_.segment);
-  double low = std::max(workspace.min().z(), region.min().z());
-  double high = std::min(workspace.max().z(), region.max().z());
+  double low = std::max(workspace.min().z(), region_base_.min().z());
+  double high = std::min(workspace.max().z(), region_base_.max().z());
   if (low > high) {
     low = workspace.min().z();
     high = workspace.max().z();
@@ -199,12 +197,15 @@ Decision DriveByPlanner::drive(const TrolleyState& goal, const Configuration& q)
 
 Expected<std::string> DriveByPlanner::state() const {
   if (!mover_) return fail("no segment has begun");
-  return state_bytes(*mover_, next_, motions_, drives_, parked_, ever_parked_);
+  return state_bytes(*mover_, region_base_, next_, motions_, drives_, parked_, ever_parked_);
 }
 
 Expected<void> DriveByPlanner::restore(const PlanningScene& scene, std::string_view state) {
   begin_segment(scene);
-  return read_state_bytes(state, *mover_, next_, motions_, drives_, parked_, ever_parked_);
+  auto read = read_state_bytes(state, *mover_, region_base_, next_, motions_, drives_, parked_,
+                               ever_parked_);
+  if (read) plan_passes();
+  return read;
 }
 
 }  // namespace canopeer

@@ -48,7 +48,7 @@ class DriveByPlanner : public Planner {
     double height_m = 0.0;  // of the camera, arm base frame
     Vec3 direction_base = Vec3::UnitY();
   };
-  [[nodiscard]] std::vector<Pass> plan_passes() const;
+  void plan_passes();
   [[nodiscard]] std::vector<double> heights() const;
   void next_pass();
   [[nodiscard]] std::optional<Decision> park(const Pass& pass, const Configuration& q,
@@ -62,6 +62,7 @@ class DriveByPlanner : public Planner {
   DriveByOptions options_;
   PlanningScene scene_;
   std::unique_ptr<ViewMover> mover_;
+  Box region_base_;  // as it was when the segment began: rounding differs at other stops
   RowAhead row_;
   std::vector<Pass> passes_;
   std::size_t next_ = 0;
