@@ -82,8 +82,8 @@ struct PlanningScene {
   std::shared_ptr<const MapSnapshot> snapshot{};
   SegmentFrame segment;
   std::uint64_t seed = 1;
-  /// Frames are wanted on the way, and the arm moves no faster than this; nothing: none are, or as
-  /// fast as it can.
+  bool looks_on_the_way = false;  ///< frames are taken while the arm or the trolley moves
+  /// The arm moves no faster than this, so that they are sharp; nothing: as fast as it can.
   std::optional<ImageMotionLimit> sharp{};
 };
 
