@@ -3,7 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <ctime>
+#include <cstdlib>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -79,14 +80,14 @@ struct Faults {
   double translation_m = 0.0;
   double rotation_rad = 0.0;
   bool moving = true;  ///< frames on the way
-  double hz = 10.0;
+  double hz = 6.0;
 };
 
 class FrameAgreementTest : public ::testing::Test {
  protected:
-  void travel(const Faults& faults, std::uint64_t seed, int views = 15) {
+  void travel(const Faults& faults, std::uint64_t seed, int views = 10) {
     RgbdSensorOptions options;
-    options.intrinsics = CameraIntrinsics::from_fov(320, 240, 80.0 * kDegree);
+    options.intrinsics = CameraIntrinsics::from_fov(240, 180, 80.0 * kDegree);
     options.noise = sensor_noise_preset("d435");
     options.hand_eye_translation_m = faults.translation_m;
     options.hand_eye_rotation_rad = faults.rotation_rad;
@@ -114,11 +115,11 @@ class FrameAgreementTest : public ::testing::Test {
         sample.add_moving(frame, journey.twist(frame.time_s));
       }
     }
-    const auto begun = std::chrono::steady_clock::now();
+    const std::clock_t begun = std::clock();
     agreement_ = judge_agreement(sample);
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
+    const double took = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
     std::printf("%2d frames, %2d moving, %.2f s: %s\n", agreement_.frames, agreement_.moving,
-                took.count(), agreement_text(agreement_, {}).c_str());
+                took, agreement_text(agreement_, {}).c_str());
     if (agreement_.estimate) {
       const auto& e = *agreement_.estimate;
       std::printf("   time %.1f (se %.2f) ms, mounting %.2f (se %.2f) mm %.3f (se %.3f) deg; miss "
@@ -137,7 +138,7 @@ class FrameAgreementTest : public ::testing::Test {
         .angle();
   }
 
-  const Scene scene_ = make_world(dense_1_world(), 1);
+  const Scene scene_ = make_world(std::getenv("W") ? dense_1_world() : scenario_1_world(), 1);
   const std::unique_ptr<Renderer> renderer_ = std::make_unique<Renderer>(scene_);
   Pose T_said_true_ = Pose::Identity();
   FrameAgreement agreement_;

@@ -10,7 +10,8 @@ namespace canopeer {
 namespace {
 
 constexpr double kDegreesPerRad = 180.0 / std::numbers::pi;
-constexpr int kPairs = 120;  // more cost time and tell little
+constexpr int kPairs = 80;  // more cost time and tell little
+constexpr int kPatches = 800;
 
 std::string decimal(double value, int decimals) {
   char text[64];
@@ -79,6 +80,7 @@ FrameAgreement judge_agreement(const FrameSample& sample) {
   const PoseTrack track = sample.track();
   HandEyeOptions options;
   options.max_pairs = kPairs;
+  options.patches = kPatches;
   auto estimate =
       estimate_hand_eye(frames, [&](double time_s) { return track.at(time_s); }, options);
   if (estimate) {

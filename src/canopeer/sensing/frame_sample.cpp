@@ -79,6 +79,7 @@ void FrameSample::add_still(const RgbdFrame& frame) {
 void FrameSample::add_moving(const RgbdFrame& frame, const CameraTwist& twist) {
   ++moving_;
   if (!open_.track.empty()) {
+    if (frame.time_s <= open_.track.back().time_s) return;  // perception was behind
     const auto first = std::find_if(open_.frames.begin(), open_.frames.end(),
                                     [](const Kept& kept) { return kept.moving; });
     const bool long_enough =
@@ -90,7 +91,6 @@ void FrameSample::add_moving(const RgbdFrame& frame, const CameraTwist& twist) {
 }
 
 void FrameSample::moves_from(double time_s) {
-  rests_from_s_.reset();
   if (open_.track.empty()) return;
   TrackPoint rest = open_.track.back();
   if (rest.twist.linear.isZero() && rest.twist.angular.isZero() && rest.time_s < time_s) {
@@ -100,7 +100,7 @@ void FrameSample::moves_from(double time_s) {
 }
 
 void FrameSample::add(const RgbdFrame& frame, const CameraTwist& twist, bool moving) {
-  rests_from_s_.reset();
+  if (rests_from_s_ && *rests_from_s_ < frame.time_s) rests_from_s_.reset();
   open_.track.push_back({frame.time_s, frame.T_world_camera, twist});
   auto& kept = open_.frames;
   if (moving && !kept.empty() && frame.time_s < kept.back().time_s + options_.apart_s) return;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -12,7 +12,7 @@ namespace canopeer {
 
 /// How much is kept of the frames of a run.
 struct FrameSampleOptions {
-  int stretches = 10;             ///< kept at most, at least 2
+  int stretches = 10;  ///< kept at most, at least 2
   int frames = 6;                 ///< of a stretch at most, at least 2
   double apart_s = 0.15;          ///< between frames of a stretch that are kept
   double longest_s = 2.5;         ///< a stretch lasts while things move
@@ -28,7 +28,7 @@ class FrameSample {
  public:
   explicit FrameSample(const FrameSampleOptions& options = {}) : options_(options) {}
 
-  /// A frame from where the camera stands still. Times rise from call to call of all methods.
+  /// A frame from where the camera stands still. A frame that is older than one before is left out.
   void add_still(const RgbdFrame& frame);
   /// A frame on the way, and how the camera moves then.
   void add_moving(const RgbdFrame& frame, const CameraTwist& twist);
@@ -43,6 +43,15 @@ class FrameSample {
     Pose T_world_camera = Pose::Identity();
     CameraTwist twist;
     bool moving = false;
+
+    template <typename Archive>
+    void serialize(Archive& archive) {
+      CameraIntrinsics& k = image.intrinsics;
+      archive(time_s, T_world_camera, twist.linear, twist.angular, moving);
+      archive(k.width, k.height, k.fx, k.fy, k.cx, k.cy, k.min_range_m, k.max_range_m);
+      if (image.depth.empty()) image.depth = DepthImage(k.width, k.height);  // read
+      archive(image.depth.pixels());
+    }
   };
   /// What was kept, by time.
   [[nodiscard]] std::vector<Kept> frames() const;
@@ -51,16 +60,32 @@ class FrameSample {
   /// Of all that came.
   [[nodiscard]] int moving() const { return moving_; }
 
+  /// All but the options.
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(open_, slots_, slot_stretches_, rests_from_s_, moving_);
+  }
+
  private:
   struct Stretch {
     std::vector<Kept> frames;
     std::vector<TrackPoint> track;
+
+    template <typename Archive>
+    void serialize(Archive& archive) {
+      archive(frames, track);
+    }
   };
   /// The best of so many stretches one after the other.
   struct Slot {
     Stretch best;
     double worth = 0.0;
-    std::size_t stretches = 0;
+    std::uint64_t stretches = 0;
+
+    template <typename Archive>
+    void serialize(Archive& archive) {
+      archive(best, worth, stretches);
+    }
   };
   void add(const RgbdFrame& frame, const CameraTwist& twist, bool moving);
   void close();
@@ -69,7 +94,7 @@ class FrameSample {
   FrameSampleOptions options_;
   Stretch open_;
   std::vector<Slot> slots_;        // by time
-  std::size_t slot_stretches_ = 1;  // that go into a slot
+  std::uint64_t slot_stretches_ = 1;  // that go into a slot
   std::optional<double> rests_from_s_;
   int moving_ = 0;
 };

@@ -92,15 +92,13 @@ class Comparison {
   /// The sums of each pair, or of every so many.
   [[nodiscard]] std::vector<HandEyeSums> sums(const Assumption& assumed, double gate_m,
                                               std::size_t every = 1) const {
-    constexpr std::size_t kPatchesOfPair = 1500;
     const auto at = poses(assumed.time_offset_s);
     std::vector<HandEyeSums> sums;
     for (std::size_t i = 0; i < pairs_.size(); i += every) {
       const auto [a, b] = pairs_[i];
       if (!at[a] || !at[b]) continue;
-      const auto stride = static_cast<int>(1 + patches_[a].all().size() / kPatchesOfPair);
       sums.push_back(disagreement(patches_[a], *at[a], patches_[b], *at[b], assumed.T_said_true,
-                                  gate_m, stride));
+                                  gate_m, stride_of(a)));
     }
     return sums;
   }
@@ -112,7 +110,7 @@ class Comparison {
     for (const auto& [a, b] : pairs_) {
       if (!at[a] || !at[b]) continue;
       add_distances(patches_[a], *at[a], patches_[b], *at[b], assumed.T_said_true, kShownGate_m,
-                    &distances[a]);
+                    stride_of(a), &distances[a]);
     }
     return distances;
   }
@@ -120,6 +118,11 @@ class Comparison {
   [[nodiscard]] const std::vector<Pair>& pairs() const { return pairs_; }
 
  private:
+  /// So that a pair has about as many patches as wanted.
+  [[nodiscard]] int stride_of(std::size_t frame) const {
+    return 1 + static_cast<int>(patches_[frame].all().size()) / options_.patches;
+  }
+
   const std::vector<HandEyeFrame>& frames_;
   const CameraPoseAt& pose_at_;
   const HandEyeOptions& options_;

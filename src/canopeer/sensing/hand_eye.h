@@ -24,6 +24,7 @@ using CameraPoseAt = std::function<std::optional<Pose>(double time_s)>;
 struct HandEyeOptions {
   double max_time_offset_s = 0.15;  ///< either way
   int max_pairs = 250;              ///< of frames that are compared
+  int patches = 1500;               ///< of surface in each pair, about
   /// What is worth changing: a smaller error is none.
   double worth_m = 0.003;
   double worth_rad = 0.005;

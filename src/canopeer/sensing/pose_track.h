@@ -13,6 +13,11 @@ struct TrackPoint {
   double time_s = 0.0;
   Pose T_world_camera = Pose::Identity();
   CameraTwist twist;
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(time_s, T_world_camera, twist.linear, twist.angular);
+  }
 };
 
 /// Where a camera was between the times it was asked for.

@@ -92,9 +92,10 @@ HandEyeSums disagreement(const SurfacePatches& a, const SoughtPose& at_a, const 
 
 void add_distances(const SurfacePatches& a, const SoughtPose& at_a, const SurfacePatches& b,
                    const SoughtPose& at_b, const Pose& T_said_true, double gate_m,
-                   std::vector<float>* distances) {
+                   int stride, std::vector<float>* distances) {
   const Eigen::Isometry3f T_b_a = between(at_a, at_b, T_said_true).cast<float>();
-  for (const SurfacePatch& from : a.all()) {
+  for (std::size_t i = 0; i < a.all().size(); i += static_cast<std::size_t>(stride)) {
+    const SurfacePatch& from = a.all()[i];
     bool sought = false;
     const auto met = meet(from, b, T_b_a, static_cast<float>(gate_m), &sought);
     if (met) distances->push_back(std::abs(met->distance));

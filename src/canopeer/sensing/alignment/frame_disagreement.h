@@ -38,6 +38,6 @@ struct HandEyeSums {
 /// The distances themselves, m.
 void add_distances(const SurfacePatches& a, const SoughtPose& at_a, const SurfacePatches& b,
                    const SoughtPose& at_b, const Pose& T_said_true, double gate_m,
-                   std::vector<float>* distances);
+                   int stride, std::vector<float>* distances);
 
 }  // namespace canopeer
