@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <ctime>
-#include <cstdlib>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <ctime>
 #include <numbers>
 #include <utility>
 
@@ -110,7 +110,8 @@ class FrameAgreementTest : public ::testing::Test {
       if (i + 1 == stops.size()) break;
       sample.moves_from(journey.leaves_s(i));
       const double until = stops[i + 1].arrives_s;
-      for (double t = journey.leaves_s(i) + 0.04; faults.moving && t < until; t += 1.0 / faults.hz) {
+      for (double t = journey.leaves_s(i) + 0.04; faults.moving && t < until;
+           t += 1.0 / faults.hz) {
         const RgbdFrame frame = take(t);
         sample.add_moving(frame, journey.twist(frame.time_s));
       }
@@ -118,15 +119,16 @@ class FrameAgreementTest : public ::testing::Test {
     const std::clock_t begun = std::clock();
     agreement_ = judge_agreement(sample);
     const double took = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
-    std::printf("%2d frames, %2d moving, %.2f s: %s\n", agreement_.frames, agreement_.moving,
-                took, agreement_text(agreement_, {}).c_str());
+    std::printf("%2d frames, %2d moving, %.2f s: %s\n", agreement_.frames, agreement_.moving, took,
+                agreement_text(agreement_, {}).c_str());
     if (agreement_.estimate) {
       const auto& e = *agreement_.estimate;
-      std::printf("   time %.1f (se %.2f) ms, mounting %.2f (se %.2f) mm %.3f (se %.3f) deg; miss "
-                  "%.2f mm %.3f deg; residual %.2f -> %.2f mm\n",
-                  1e3 * e.time_offset_s, 1e3 * e.time_offset_se_s, 1e3 * e.translation_m,
-                  1e3 * e.translation_se_m, e.rotation_rad / kDegree, e.rotation_se_rad / kDegree,
-                  1e3 * miss_m(), miss_rad() / kDegree, 1e3 * e.all.before_m, 1e3 * e.all.after_m);
+      std::printf(
+          "   time %.1f (se %.2f) ms, mounting %.2f (se %.2f) mm %.3f (se %.3f) deg; miss "
+          "%.2f mm %.3f deg; residual %.2f -> %.2f mm\n",
+          1e3 * e.time_offset_s, 1e3 * e.time_offset_se_s, 1e3 * e.translation_m,
+          1e3 * e.translation_se_m, e.rotation_rad / kDegree, e.rotation_se_rad / kDegree,
+          1e3 * miss_m(), miss_rad() / kDegree, 1e3 * e.all.before_m, 1e3 * e.all.after_m);
     }
   }
   [[nodiscard]] double miss_m() const {

@@ -68,8 +68,9 @@ struct Run::State {
     auto agreement = frame_check ? frame_check->judge() : std::nullopt;
     if (agreement && agreement->wrong() && on_message) {
       const auto& ros2 = stage->file().ros2;
-      on_message("notice: " + agreement_text(*agreement, {camera_mounting(stage->robot().model),
-                                                          ros2 ? ros2->camera.time_offset_s : 0.0}));
+      on_message("notice: " +
+                 agreement_text(*agreement, {camera_mounting(stage->robot().model),
+                                             ros2 ? ros2->camera.time_offset_s : 0.0}));
     }
     return agreement;
   }

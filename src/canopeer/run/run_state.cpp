@@ -43,9 +43,8 @@ Expected<std::string> unpacked(std::string_view file) {
 }  // namespace
 
 Expected<void> write_run_state(const std::filesystem::path& path, const RunState& state) {
-  const std::string bytes =
-      state_bytes(state.run, mission_state_bytes(state.mission), state.site, state.record_bytes,
-                  state.frame_check);
+  const std::string bytes = state_bytes(state.run, mission_state_bytes(state.mission), state.site,
+                                        state.record_bytes, state.frame_check);
   std::string packed(ZSTD_compressBound(bytes.size()), '\0');
   const std::size_t size =
       ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), kLevel);

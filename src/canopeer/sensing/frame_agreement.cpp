@@ -10,8 +10,8 @@ namespace canopeer {
 namespace {
 
 constexpr double kDegreesPerRad = 180.0 / std::numbers::pi;
-constexpr int kPairs = 80;  // more cost time and tell little
-constexpr int kPatches = 800;
+constexpr int kPairs = 150;  // more cost time and tell little
+constexpr int kPatches = 1000;
 
 std::string decimal(double value, int decimals) {
   char text[64];
@@ -36,7 +36,8 @@ std::string time_text(const HandEyeEstimate& e, const AssumedMounting& assumed) 
     return "they do not tell whether their stamps are right: too few show the same from while the "
            "camera moved otherwise";
   }
-  const std::string by = with_error(1e3 * std::abs(e.time_offset_s), 1e3 * e.time_offset_se_s, 1, "ms");
+  const std::string by =
+      with_error(1e3 * std::abs(e.time_offset_s), 1e3 * e.time_offset_se_s, 1, "ms");
   if (!e.time_wrong) return "their stamps are right within " + by;
   return "they are stamped " + by + (e.time_offset_s > 0.0 ? " too early" : " too late") +
          " by the clock of the poses: add " + decimal(e.time_offset_s, 3) +
@@ -53,8 +54,7 @@ std::string mounting_verdict(const HandEyeEstimate& e, const AssumedMounting& as
       with_error(1e3 * e.translation_m, 1e3 * e.translation_se_m, 1, "mm") + " and " +
       with_error(kDegreesPerRad * e.rotation_rad, kDegreesPerRad * e.rotation_se_rad, 2, "degrees");
   if (!e.hand_eye_wrong) return "the camera sits where the robot file has it, within " + by;
-  return "the camera sits " + by +
-         " beside where the robot file has it: camera_mounting: " +
+  return "the camera sits " + by + " beside where the robot file has it: camera_mounting: " +
          mounting_text(assumed.T_frame_camera * e.T_said_true);
 }
 
@@ -81,8 +81,8 @@ FrameAgreement judge_agreement(const FrameSample& sample) {
   HandEyeOptions options;
   options.max_pairs = kPairs;
   options.patches = kPatches;
-  auto estimate =
-      estimate_hand_eye(frames, [&](double time_s) { return track.at(time_s); }, options);
+  auto estimate = estimate_hand_eye(
+      frames, [&](double time_s) { return track.at(time_s); }, options);
   if (estimate) {
     agreement.estimate = *std::move(estimate);
   } else {

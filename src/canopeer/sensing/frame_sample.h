@@ -12,11 +12,11 @@ namespace canopeer {
 
 /// How much is kept of the frames of a run.
 struct FrameSampleOptions {
-  int stretches = 10;  ///< kept at most, at least 2
-  int frames = 6;                 ///< of a stretch at most, at least 2
-  double apart_s = 0.15;          ///< between frames of a stretch that are kept
-  double longest_s = 2.5;         ///< a stretch lasts while things move
-  double focal_length_px = 150.0; ///< kept images are as coarse as that
+  int stretches = 10;              ///< kept at most, at least 2
+  int frames = 6;                  ///< of a stretch at most, at least 2
+  double apart_s = 0.15;           ///< between frames of a stretch that are kept
+  double longest_s = 2.5;          ///< a stretch lasts while things move
+  double focal_length_px = 150.0;  ///< kept images are as coarse as that
 };
 
 /// A few frames of a run, kept as they come, to tell whether pose and image agree: of each part of
@@ -93,7 +93,7 @@ class FrameSample {
 
   FrameSampleOptions options_;
   Stretch open_;
-  std::vector<Slot> slots_;        // by time
+  std::vector<Slot> slots_;           // by time
   std::uint64_t slot_stretches_ = 1;  // that go into a slot
   std::optional<double> rests_from_s_;
   int moving_ = 0;

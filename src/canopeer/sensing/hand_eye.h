@@ -32,7 +32,8 @@ struct HandEyeOptions {
 };
 
 /// How frames disagree, and what would make them agree. An error within three standard errors, or
-/// smaller than what is worth changing, is not called wrong.
+/// smaller than what is worth changing, is not called wrong; nor is one without which, the other
+/// corrected, surfaces lie nearly as close.
 struct HandEyeEstimate {
   Pose T_said_true = Pose::Identity();  ///< from the calibrated camera frame to where it is
   double translation_m = 0.0;           ///< of that

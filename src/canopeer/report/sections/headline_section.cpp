@@ -71,9 +71,9 @@ std::string interventions(const RunRecord& record) {
 std::vector<std::pair<std::string, std::string>> agreement_figures(const Summary& s) {
   std::vector<std::pair<std::string, std::string>> figures;
   if (s.time_offset_s && s.time_offset_se_s) {
-    figures.emplace_back("Stamps of frames off by, as the frames show",
-                         fmt::format("{:.1f} ms (± {:.1f})", -1e3 * *s.time_offset_s,
-                                     3e3 * *s.time_offset_se_s));
+    figures.emplace_back(
+        "Stamps of frames off by, as the frames show",
+        fmt::format("{:.1f} ms (± {:.1f})", -1e3 * *s.time_offset_s, 3e3 * *s.time_offset_se_s));
   }
   if (s.hand_eye_translation_m && s.hand_eye_rotation_rad) {
     constexpr double kDegree = std::numbers::pi / 180.0;
