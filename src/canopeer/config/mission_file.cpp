@@ -5,6 +5,7 @@
 #include "canopeer/config/camera_section.h"
 #include "canopeer/config/cost_table_file.h"
 #include "canopeer/config/detector_section.h"
+#include "canopeer/config/frames_section.h"
 #include "canopeer/config/fruit_section.h"
 #include "canopeer/config/ros2_file.h"
 #include "canopeer/config/world_section.h"
@@ -209,6 +210,7 @@ Expected<MissionFile> load_mission(const fs::path& path, const Overrides& overri
   }
   read_camera(file->map("camera"), result);
   read_noise(*file, result.simulation.sensor);
+  read_frames(*file, result.simulation.camera, 0.0, mission);
   read_map(file->map("map"), mission);
   read_view_sampling(file->map("view_sampling"), vmp.builder);
   read_graph(file->map("graph"), vmp.builder);

@@ -21,12 +21,27 @@ std::vector<Vec3> centres_of(const Fruits& fruits) {
 std::vector<FoundAtTime> found_over_time(const RunRecord& record,
                                          std::span<const FruitTruth> truth) {
   std::vector<FoundAtTime> found;
-  found.reserve(record.views.size());
-  for (const ViewEvent& view : record.views) {
-    const std::vector<Vec3> centres = centres_of(view.fruits);
-    found.push_back({view.t_s, static_cast<int>(match_optimal(centres, truth).pairs.size()),
+  found.reserve(record.views.size() + record.frames.size());
+  std::vector<Vec3> last;
+  const auto add = [&](double t_s, const std::vector<FruitSnapshot>& fruits) {
+    std::vector<Vec3> centres = centres_of(fruits);
+    if (!found.empty() && centres == last) {  // most frames on the way move no fruit
+      found.push_back(found.back());
+      found.back().t_s = t_s;
+      return;
+    }
+    found.push_back({t_s, static_cast<int>(match_optimal(centres, truth).pairs.size()),
                      static_cast<int>(match_greedy(centres, truth).pairs.size())});
+    last = std::move(centres);
+  };
+  auto frame = record.frames.begin();
+  for (const ViewEvent& view : record.views) {
+    for (; frame != record.frames.end() && frame->t_s <= view.t_s; ++frame) {
+      add(frame->t_s, frame->fruits);
+    }
+    add(view.t_s, view.fruits);
   }
+  for (; frame != record.frames.end(); ++frame) add(frame->t_s, frame->fruits);
   return found;
 }
 
@@ -156,7 +171,8 @@ RunMetrics compute_metrics(const RunRecord& record, std::span<const FruitEstimat
   metrics.time_to_50pct_s = time_to_share(metrics.found, 0.5, total);
   metrics.time_to_80pct_s = time_to_share(metrics.found, 0.8, total);
   metrics.time_to_90pct_s = time_to_share(metrics.found, 0.9, total);
-  metrics.auc = mean_detected_share(metrics.found, record.end_s, total);
+  const double whole_s = record.header.mission_time_s;
+  metrics.auc = mean_detected_share(metrics.found, whole_s > 0.0 ? whole_s : record.end_s, total);
   return metrics;
 }
 

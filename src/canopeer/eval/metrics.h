@@ -19,7 +19,7 @@ struct FoundAtTime {
 
 /// The scores of one run, and its course.
 struct RunMetrics : RunScores {
-  std::vector<FoundAtTime> found;  ///< one entry per view
+  std::vector<FoundAtTime> found;  ///< one entry per frame, by time
 };
 
 /// Scores a run: the counts from the final fruits, the course over time from the fruits known after

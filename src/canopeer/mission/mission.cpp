@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "canopeer/base/check.h"
+#include "canopeer/mission/mission_time.h"
 #include "canopeer/mission/segment/segment_runner.h"
 #include "canopeer/robot/arm_reach.h"
 
@@ -36,12 +37,15 @@ struct Mission::State {
         registries(r),
         perception(options, r.detectors),
         traveller(kit.model, o.motion, o.seed),
-        camera(kit.model, ports, options, perception) {}
+        camera(kit.model, ports, options, perception) {
+    if (options.mission_time_s > 0.0) deadlines_s = segment_deadlines_s(kit.model, options);
+  }
 
   // What the mission is made of …
   RobotKit robot;
   Ports ports;
   MissionOptions options;
+  std::vector<double> deadlines_s;  ///< of the segments; empty: each has its own clock
   Registries registries;
   Perception perception;
   Traveller traveller;
@@ -52,6 +56,7 @@ struct Mission::State {
   // … from the first step on …
   std::unique_ptr<Planner> planner;
   std::unique_ptr<Timekeeper> time;
+  std::unique_ptr<FramesOnTheWay> frames;
   std::unique_ptr<ArmMover> arm;
   std::unique_ptr<SegmentRunner> segment;  ///< the last one begun
   // … and where it is.
@@ -61,7 +66,7 @@ struct Mission::State {
   SteeringWord said;  ///< last
 
   [[nodiscard]] SegmentTools tools() {
-    return {robot, options, perception, camera, *arm, *time, events, cursor};
+    return {robot, options, perception, camera, *arm, *frames, *time, events, cursor, deadlines_s};
   }
   [[nodiscard]] Configuration home_of(int index) const {
     const auto& plan = options.segments[static_cast<std::size_t>(index)];
@@ -154,7 +159,10 @@ Expected<void> Mission::State::prepare() {
   planner = std::move(*made);
   time = std::make_unique<Timekeeper>(*ports.clock, options.costs, *planner,
                                       options.background_workers, timer);
-  arm = std::make_unique<ArmMover>(robot.model, ports, traveller, *time, events, cursor);
+  frames = std::make_unique<FramesOnTheWay>(robot.model, ports, options, perception, *time, events,
+                                            cursor);
+  arm = std::make_unique<ArmMover>(robot.model, ports, traveller, *time, *frames, events, cursor,
+                                   options.on_the_way.limit());
   if (traveller.state().way.empty()) traveller.forget_way(ports.arm->configuration());
   return {};
 }
@@ -243,6 +251,7 @@ Expected<void> Mission::State::listen_to_steering() {
     word = steering->ask(steering_point(true));
   }
   if (held) time->background().resume();
+  cursor.held_s += ports.clock->now_s() - since_s;
   cursor.segment_start_s += ports.clock->now_s() - since_s;
   cursor.standing_since_s += ports.clock->now_s() - since_s;
   cursor.stopped = cursor.stopped || word.kind == Word::stop;

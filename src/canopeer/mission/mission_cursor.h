@@ -24,6 +24,7 @@ struct MissionCursor {
   double standing_since_s = 0.0;
   double last_standing_s = 0.0;  ///< before the last motion
   double last_motion_s = 0.0;
+  double held_s = 0.0;              ///< of the run, by steering
   std::int32_t missed_motions = 0;  ///< in a row that did not arrive
   std::string needs_person;         ///< why the arm cannot go on by itself; told to steering once
   bool skip = false;                ///< told to end this segment
@@ -33,7 +34,7 @@ struct MissionCursor {
   template <typename Archive>
   void serialize(Archive& archive) {
     archive(next, segment, views, segment_start_s, standing_since_s, last_standing_s, last_motion_s,
-            missed_motions, needs_person, skip, stopped, said);
+            held_s, missed_motions, needs_person, skip, stopped, said);
   }
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "canopeer/map/voxel_map.h"
 #include "canopeer/planner/registry.h"
 #include "canopeer/robot/collision_checker.h"
+#include "canopeer/robot/joint_path.h"
 #include "canopeer/robot/motion_planner.h"
 #include "canopeer/robot/self_filter.h"
 
@@ -31,15 +33,21 @@ struct SegmentPlan {
 struct OnTheWayOptions {
   double hz = 0.0;  ///< so many a second at most; 0: none
   /// A frame is left out when its image moved farther than this during the exposure, px, where it
-  /// moved fastest, at the median distance of what it shows. 0: any blur.
+  /// moved fastest, at the median distance of what the last frame showed. 0: any blur.
   double max_blur_px = 1.0;
   double exposure_s = 0.005;  ///< what blur is reckoned with
+  CameraIntrinsics camera;    ///< the same
   /// The arm moves no faster than `max_blur_px` allows at `sharp_distance_m`.
   bool keep_sharp = false;
   double sharp_distance_m = 0.5;
   /// A frame is left out when the camera has moved less than both since the last one that was not.
   double new_after_m = 0.01;
   double new_after_rad = 0.02;
+  /// The same as a limit for whoever times motions; nothing: they are as fast as can be.
+  [[nodiscard]] std::optional<ImageMotionLimit> limit() const {
+    if (hz <= 0.0 || !keep_sharp || max_blur_px <= 0.0) return std::nullopt;
+    return ImageMotionLimit{camera, sharp_distance_m, max_blur_px / exposure_s};
+  }
   int queue = 2;  ///< frames that wait while one is worked on; who comes then is too late
   double tell_every_s = 0.25;  ///< how often the planner hears of what they changed
 };
@@ -47,7 +55,7 @@ struct OnTheWayOptions {
 /// Whose clock a mission's time is counted by.
 enum class MissionClock {
   paper,  ///< each segment's own; transitions are not counted
-  whole   ///< one that never stops; see MissionTime
+  whole   ///< one that never stops (mission_time.h)
 };
 
 /// Everything a mission does, with no word about the world it does it in.
@@ -56,6 +64,7 @@ struct MissionOptions {
   std::vector<SegmentPlan> segments;
   double segment_time_s = 60.0;  ///< transitions between segments are not counted in it
   MissionClock clock = MissionClock::paper;
+  double mission_time_s = 0.0;  ///< T of the whole clock (mission_time.h); 0: the paper's clock
   OnTheWayOptions on_the_way;
   std::string planner = "vmp";
   std::uint64_t seed = 1;

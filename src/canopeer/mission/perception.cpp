@@ -1,5 +1,7 @@
 #include "canopeer/mission/perception.h"
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -24,6 +26,18 @@ std::optional<PixelCounts> score_pixels(const RgbdFrame& frame, const Mask& foun
   return counts;
 }
 
+/// Both sorted, and so is what comes of them.
+void add_to(std::vector<BlockKey>& blocks, const std::vector<BlockKey>& more) {
+  if (blocks.empty()) {
+    blocks = more;
+    return;
+  }
+  std::vector<BlockKey> all;
+  all.reserve(blocks.size() + more.size());
+  std::set_union(blocks.begin(), blocks.end(), more.begin(), more.end(), std::back_inserter(all));
+  blocks = std::move(all);
+}
+
 }  // namespace
 
 Perception::Perception(const MissionOptions& options, DetectorRegistry detectors)
@@ -45,24 +59,36 @@ void Perception::move_field(const Vec3& base_world, const Box& known_free_world)
 
 Expected<Observation> Perception::observe(const RgbdFrame& frame, const Box& region_world,
                                           WorkMeter& work, StageTimer& timer) {
+  auto sighting = take_in(frame, work, timer);
+  if (!sighting) return tl::unexpected(sighting.error());
+  return Observation{std::move(sighting->detection), std::move(sighting->fused), sighting->pixels,
+                     settle(region_world, work, timer)};
+}
+
+Expected<Sighting> Perception::take_in(const RgbdFrame& frame, WorkMeter& work, StageTimer& timer) {
   auto detection = timer.time("detect", [&] { return detect(frame); });
   if (!detection) return tl::unexpected(detection.error());
-  Observation seen;
+  Sighting seen;
   seen.detection = std::move(*detection);
   const Mask& fruit = seen.detection.fruit;
   seen.pixels = score_pixels(frame, fruit);
   seen.fused = timer.time("fuse", [&] { return fuse(frame, fruit); });
-  const std::vector<BlockKey>& changed = seen.fused.changed;
-  timer.time("distance field", [&] { update_distances(changed); });
-  seen.change.targets =
-      timer.time("targets", [&] { return update_targets(region_world, changed); });
-  seen.change.blocks = changed;
+  add_to(unsettled_, seen.fused.changed);
   timer.time("fruit map", [&] { update_fruits(frame, fruit); });
   work.add(Work::detect_frame);
   work.add(Work::fuse_point, seen.fused.fused_points);
-  work.add(Work::field_block, static_cast<std::int64_t>(changed.size()));
-  work.add(Work::target_block, static_cast<std::int64_t>(map_.block_keys(region_world).size()));
   return seen;
+}
+
+MapChange Perception::settle(const Box& region_world, WorkMeter& work, StageTimer& timer) {
+  MapChange change;
+  change.blocks = std::exchange(unsettled_, {});
+  timer.time("distance field", [&] { update_distances(change.blocks); });
+  change.targets =
+      timer.time("targets", [&] { return update_targets(region_world, change.blocks); });
+  work.add(Work::field_block, static_cast<std::int64_t>(change.blocks.size()));
+  work.add(Work::target_block, static_cast<std::int64_t>(map_.block_keys(region_world).size()));
+  return change;
 }
 
 Expected<Detection> Perception::detect(const RgbdFrame& frame) {
@@ -115,6 +141,7 @@ void Perception::restore(VoxelMap map, FruitMap fruits) {
   fruits_ = std::move(fruits);
   field_.reset();
   frontiers_.reset();
+  unsettled_.clear();
 }
 
 }  // namespace canopeer

@@ -16,6 +16,14 @@
 
 namespace canopeer {
 
+/// What a frame showed, before anybody asks what is left to see.
+struct Sighting {
+  Detection detection;
+  FuseResult fused;
+  std::optional<PixelCounts>
+      pixels;  ///< fruit pixels found against the frame's labels, if it has any
+};
+
 /// What one frame taught.
 struct Observation {
   Detection detection;
@@ -27,6 +35,7 @@ struct Observation {
 
 /// From a frame to all that is known: fruit pixels, voxel map, distance field, frontiers, fruit
 /// map. observe() takes the five steps; each can be taken alone, in this order for every frame.
+/// Where frames come faster than anybody plans, take_in() is for each of them, settle() after some.
 class Perception {
  public:
   Perception(const MissionOptions& options, DetectorRegistry detectors);
@@ -39,6 +48,13 @@ class Perception {
   /// is not counted. The error is the detector's.
   [[nodiscard]] Expected<Observation> observe(const RgbdFrame& frame, const Box& region_world,
                                               WorkMeter& work, StageTimer& timer);
+
+  /// Steps 1, 2 and 5, which no later frame can do without. The fruit map's work is counted here:
+  /// the next frame waits for it. The error is the detector's.
+  [[nodiscard]] Expected<Sighting> take_in(const RgbdFrame& frame, WorkMeter& work,
+                                           StageTimer& timer);
+  /// Steps 3 and 4 for all frames since the last time; its blocks are those that they changed.
+  [[nodiscard]] MapChange settle(const Box& region_world, WorkMeter& work, StageTimer& timer);
 
   /// 1. Which pixels show fruit. The detector is made with the first frame.
   [[nodiscard]] Expected<Detection> detect(const RgbdFrame& frame);
@@ -72,6 +88,7 @@ class Perception {
   std::optional<DistanceField> field_;
   std::optional<FrontierIndex> frontiers_;  // of the region asked for last
   FruitMap fruits_;
+  std::vector<BlockKey> unsettled_;  // changed by frames since the last settling
 };
 
 }  // namespace canopeer

@@ -97,7 +97,9 @@ class Trolley {
 
 /// A frame taken whether things moved or not, before anybody has looked at its images.
 struct StreamedFrame {
-  double time_s = 0.0;  ///< mission time in the middle of the exposure, by its stamp
+  double time_s = 0.0;     ///< mission time in the middle of the exposure, by its stamp
+  double arrived_s = 0.0;  ///< mission time
+  CameraIntrinsics intrinsics;
   Pose T_world_camera = Pose::Identity();  ///< then, as the robot says
   CameraTwist twist;                       ///< then
   Configuration q;                         ///< arm then, rad

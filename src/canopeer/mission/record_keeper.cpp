@@ -22,6 +22,10 @@ struct Line {
     record.views.push_back(e.view);
     return writer.add(e.view);
   }
+  Expected<void> operator()(const FrameOnTheWay& e) {
+    record.frames.push_back(e.frame);
+    return writer.add(e.frame);
+  }
   Expected<void> operator()(const MotionEnded& e) {
     record.motions.push_back(e.motion);
     return writer.add(e.motion);
@@ -51,6 +55,16 @@ struct Line {
   }
 };
 
+/// Of the last frame, on the way or not.
+std::vector<FruitSnapshot> last_fruits(const RunRecord& record) {
+  const bool view = !record.views.empty();
+  const bool frame = !record.frames.empty();
+  if (frame && (!view || record.frames.back().t_s > record.views.back().t_s)) {
+    return record.frames.back().fruits;
+  }
+  return view ? record.views.back().fruits : std::vector<FruitSnapshot>();
+}
+
 }  // namespace
 
 Expected<RecordKeeper> RecordKeeper::create(const std::filesystem::path& run_dir,
@@ -74,7 +88,7 @@ Expected<RecordKeeper> RecordKeeper::resume(const std::filesystem::path& run_dir
                 there.planner + " seed " + std::to_string(there.seed) + ", canopeer " +
                 there.canopeer_version);
   }
-  auto writer = RecordWriter::resume(run_dir, bytes);
+  auto writer = RecordWriter::resume(run_dir, bytes, last_fruits(*record));
   if (!writer) return tl::unexpected(writer.error());
   record->header = header;
   return RecordKeeper(std::move(*writer), std::move(*record));

@@ -16,6 +16,9 @@ class StageTimer {
     const Stopwatch watch{seconds_[stage]};
     return work();
   }
+  void add(const StageTimer& other) {
+    for (const auto& [stage, seconds] : other.seconds_) seconds_[stage] += seconds;
+  }
   [[nodiscard]] const std::map<std::string, double>& seconds() const { return seconds_; }
 
  private:

@@ -82,8 +82,8 @@ struct PlanningScene {
   std::shared_ptr<const MapSnapshot> snapshot{};
   SegmentFrame segment;
   std::uint64_t seed = 1;
-  /// Frames are wanted on the way, and the arm moves no faster than this; nothing: none are, or as
-  /// fast as it can.
+  bool looks_on_the_way = false;  ///< frames are taken while the arm or the trolley moves
+  /// The arm moves no faster than this, so that they are sharp; nothing: as fast as it can.
   std::optional<ImageMotionLimit> sharp{};
 };
 
@@ -129,6 +129,8 @@ class Planner {
 
   /// Forgets the last segment. `scene` stays valid until the next call of this or of restore.
   virtual void begin_segment(const PlanningScene& scene) = 0;
+  /// The trolley has driven: the scene's trolley, frame and checker are new.
+  virtual void moved(const PlanningScene& /*scene*/) {}
   /// A frame was fused into the map.
   virtual void map_changed(MapChange /*change*/) {}
   /// What to do with the arm at `q`. Foreground: the mission's clock pays for the work counted.

@@ -1,6 +1,8 @@
 #include "canopeer/record/event_json.h"
 
+#include <algorithm>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 
 namespace canopeer::event_json {
@@ -51,15 +53,17 @@ Json from(const RunHeader& header) {
   Json settings = Json::parse(header.settings_json, nullptr, false);
   // Text that is no JSON is kept as it is rather than lost.
   if (settings.is_discarded()) settings = header.settings_json;
-  return {{"canopeer_record", kFormatVersion},
-          {"canopeer_version", header.canopeer_version},
-          {"mission", header.mission},
-          {"planner", header.planner},
-          {"seed", header.seed},
-          {"compute_table", header.compute_table},
-          {"segments", header.segments},
-          {"segment_time_s", header.segment_time_s},
-          {"settings", std::move(settings)}};
+  Json json = {{"canopeer_record", kFormatVersion},
+               {"canopeer_version", header.canopeer_version},
+               {"mission", header.mission},
+               {"planner", header.planner},
+               {"seed", header.seed},
+               {"compute_table", header.compute_table},
+               {"segments", header.segments},
+               {"segment_time_s", header.segment_time_s},
+               {"settings", std::move(settings)}};
+  if (header.mission_time_s > 0.0) json["mission_time_s"] = header.mission_time_s;
+  return json;
 }
 
 RunHeader to_header(const Json& json) {
@@ -71,6 +75,7 @@ RunHeader to_header(const Json& json) {
   header.compute_table = json.at("compute_table").get<std::string>();
   header.segments = json.at("segments").get<int>();
   header.segment_time_s = to_number(json.at("segment_time_s"));
+  if (json.contains("mission_time_s")) header.mission_time_s = to_number(json["mission_time_s"]);
   const Json& settings = json.at("settings");
   header.settings_json = settings.is_string() ? settings.get<std::string>() : settings.dump();
   return header;
@@ -94,14 +99,50 @@ SegmentEvent to_segment(const Json& json) {
   return segment;
 }
 
+namespace {
+
+Json from(const FruitSnapshot& fruit) {
+  return Json::array({fruit.id, fruit.centre.x(), fruit.centre.y(), fruit.centre.z(),
+                      fruit.volume_cm3, fruit.confidence});
+}
+
+FruitSnapshot to_fruit(const Json& fruit) {
+  return {fruit.at(0).get<int>(),
+          Vec3(to_number(fruit.at(1)), to_number(fruit.at(2)), to_number(fruit.at(3))),
+          to_number(fruit.at(4)), fruit.size() > 5 ? to_number(fruit.at(5)) : 0.0};
+}
+
+Json from(const std::optional<PixelHits>& pixels) {
+  Json json;
+  if (pixels) json = {pixels->right, pixels->wrong, pixels->missed};
+  return json;
+}
+
+std::optional<PixelHits> to_pixels(const Json& json) {
+  const auto pixels = json.find("pixels");
+  if (pixels == json.end() || pixels->is_null()) return std::nullopt;
+  return PixelHits{pixels->at(0).get<std::int64_t>(), pixels->at(1).get<std::int64_t>(),
+                   pixels->at(2).get<std::int64_t>()};
+}
+
+bool same(const FruitSnapshot& a, const FruitSnapshot& b) {
+  return a.id == b.id && a.centre == b.centre && a.volume_cm3 == b.volume_cm3 &&
+         a.confidence == b.confidence;
+}
+
+/// By ascending id, as fruits are listed.
+const FruitSnapshot* find(const std::vector<FruitSnapshot>& fruits, int id) {
+  const auto at = std::lower_bound(fruits.begin(), fruits.end(), id,
+                                   [](const FruitSnapshot& f, int i) { return f.id < i; });
+  return at != fruits.end() && at->id == id ? &*at : nullptr;
+}
+
+}  // namespace
+
 Json from(const ViewEvent& view) {
   Json fruits = Json::array();
-  for (const FruitSnapshot& fruit : view.fruits) {
-    fruits.push_back(Json::array({fruit.id, fruit.centre.x(), fruit.centre.y(), fruit.centre.z(),
-                                  fruit.volume_cm3, fruit.confidence}));
-  }
-  Json pixels;
-  if (view.pixels) pixels = {view.pixels->right, view.pixels->wrong, view.pixels->missed};
+  for (const FruitSnapshot& fruit : view.fruits) fruits.push_back(from(fruit));
+  Json pixels = from(view.pixels);
   return {{"segment", view.segment},
           {"view", view.view},
           {"t_s", view.t_s},
@@ -137,18 +178,52 @@ ViewEvent to_view(const Json& json) {
   view.roi_voxels = json.at("roi_voxels").get<std::int64_t>();
   view.graph_nodes = json.at("graph_nodes").get<int>();
   view.graph_edges = json.at("graph_edges").get<int>();
-  for (const Json& fruit : json.at("fruits")) {
-    view.fruits.push_back(
-        {fruit.at(0).get<int>(),
-         Vec3(to_number(fruit.at(1)), to_number(fruit.at(2)), to_number(fruit.at(3))),
-         to_number(fruit.at(4)), fruit.size() > 5 ? to_number(fruit.at(5)) : 0.0});
-  }
-  const auto pixels = json.find("pixels");
-  if (pixels != json.end() && !pixels->is_null()) {
-    view.pixels = PixelHits{pixels->at(0).get<std::int64_t>(), pixels->at(1).get<std::int64_t>(),
-                            pixels->at(2).get<std::int64_t>()};
-  }
+  for (const Json& fruit : json.at("fruits")) view.fruits.push_back(to_fruit(fruit));
+  view.pixels = to_pixels(json);
   return view;
+}
+
+Json from(const FrameEvent& frame, const std::vector<FruitSnapshot>& before) {
+  Json fresh = Json::array();
+  for (const FruitSnapshot& fruit : frame.fruits) {
+    const FruitSnapshot* const old = find(before, fruit.id);
+    if (old == nullptr || !same(*old, fruit)) fresh.push_back(from(fruit));
+  }
+  Json gone = Json::array();
+  for (const FruitSnapshot& fruit : before) {
+    if (find(frame.fruits, fruit.id) == nullptr) gone.push_back(fruit.id);
+  }
+  return {{"segment", frame.segment},
+          {"during", frame.during},
+          {"t_s", frame.t_s},
+          {"T_world_camera", from(frame.T_world_camera)},
+          {"blur_px", frame.blur_px},
+          {"realised_gain", frame.realised_gain},
+          {"fused_points", frame.fused_points},
+          {"pixels", from(frame.pixels)},
+          {"fruits_changed", std::move(fresh)},
+          {"fruits_gone", std::move(gone)}};
+}
+
+FrameEvent to_frame(const Json& json, const std::vector<FruitSnapshot>& before) {
+  FrameEvent frame;
+  frame.segment = json.at("segment").get<int>();
+  frame.during = json.at("during").get<std::string>();
+  frame.t_s = to_number(json.at("t_s"));
+  frame.T_world_camera = to_pose(json.at("T_world_camera"));
+  frame.blur_px = to_number(json.at("blur_px"));
+  frame.realised_gain = json.at("realised_gain").get<std::int64_t>();
+  frame.fused_points = json.at("fused_points").get<std::int64_t>();
+  frame.pixels = to_pixels(json);
+  std::map<int, FruitSnapshot> fruits;
+  for (const FruitSnapshot& fruit : before) fruits[fruit.id] = fruit;
+  for (const Json& id : json.at("fruits_gone")) fruits.erase(id.get<int>());
+  for (const Json& entry : json.at("fruits_changed")) {
+    const FruitSnapshot fruit = to_fruit(entry);
+    fruits[fruit.id] = fruit;
+  }
+  for (const auto& [id, fruit] : fruits) frame.fruits.push_back(fruit);
+  return frame;
 }
 
 Json from(const MotionEvent& motion) {
@@ -159,6 +234,12 @@ Json from(const MotionEvent& motion) {
   if (!motion.deviations.empty()) json["deviations"] = motion.deviations;
   if (motion.ended != MotionEvent().ended) json["ended"] = motion.ended;
   if (!motion.why.empty()) json["why"] = motion.why;
+  if (const auto& frames = motion.frames) {
+    json["frames"] = {{"fused", frames->fused},
+                      {"late", frames->late},
+                      {"blurred", frames->blurred},
+                      {"alike", frames->alike}};
+  }
   return json;
 }
 
@@ -175,6 +256,10 @@ MotionEvent to_motion(const Json& json) {
   motion.plant_contact = json.at("plant_contact").get<bool>();
   motion.ended = json.value("ended", motion.ended);
   motion.why = json.value("why", motion.why);
+  if (const auto frames = json.find("frames"); frames != json.end()) {
+    motion.frames = FrameCounts{frames->at("fused").get<int>(), frames->at("late").get<int>(),
+                                frames->at("blurred").get<int>(), frames->at("alike").get<int>()};
+  }
   return motion;
 }
 

@@ -19,6 +19,8 @@ inline constexpr int kFormatVersion = 1;
 Json from(const RunHeader& header);
 Json from(const SegmentEvent& segment);
 Json from(const ViewEvent& view);
+/// Its fruits as what is new beside `before`, those of the event before.
+Json from(const FrameEvent& frame, const std::vector<FruitSnapshot>& before);
 Json from(const MotionEvent& motion);
 Json from(const SteeringEvent& steering);
 Json from(const FaultEvent& fault);
@@ -27,6 +29,7 @@ Json from(const std::vector<WorkItem>& work);
 RunHeader to_header(const Json& json);
 SegmentEvent to_segment(const Json& json);
 ViewEvent to_view(const Json& json);
+FrameEvent to_frame(const Json& json, const std::vector<FruitSnapshot>& before);
 MotionEvent to_motion(const Json& json);
 SteeringEvent to_steering(const Json& json);
 FaultEvent to_fault(const Json& json);

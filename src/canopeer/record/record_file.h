@@ -22,9 +22,11 @@ class RecordWriter {
   [[nodiscard]] static Expected<RecordWriter> create(const std::filesystem::path& run_dir,
                                                      const RunHeader& header);
   /// Goes on with the record that is there, from `bytes` on, the end of a line: what stands behind
-  /// them goes. The error says that the record is shorter than that, or cannot be written.
+  /// them goes. `fruits`: those of the last frame in it. The error says that the record is shorter
+  /// than that, or cannot be written.
   [[nodiscard]] static Expected<RecordWriter> resume(const std::filesystem::path& run_dir,
-                                                     std::uint64_t bytes);
+                                                     std::uint64_t bytes,
+                                                     std::vector<FruitSnapshot> fruits = {});
   RecordWriter(RecordWriter&& other) noexcept;
   RecordWriter& operator=(RecordWriter&& other) noexcept;
   ~RecordWriter();
@@ -33,6 +35,7 @@ class RecordWriter {
   [[nodiscard]] Expected<void> begin_segment(const SegmentEvent& segment);
   [[nodiscard]] Expected<void> end_segment(int segment, double end_s);
   [[nodiscard]] Expected<void> add(const ViewEvent& view);
+  [[nodiscard]] Expected<void> add(const FrameEvent& frame);
   [[nodiscard]] Expected<void> add(const MotionEvent& motion);
   [[nodiscard]] Expected<void> add(const SteeringEvent& steering);
   [[nodiscard]] Expected<void> add(const FaultEvent& fault);

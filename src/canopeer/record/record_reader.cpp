@@ -28,6 +28,7 @@ class RecordReader {
     if (kind == "segment_begin") begin_segment(body);
     if (kind == "segment_end") end_segment(body);
     if (kind == "view") add(event_json::to_view(body));
+    if (kind == "frame") add(event_json::to_frame(body, fruits_));
     if (kind == "motion") add(event_json::to_motion(body));
     if (kind == "steering") record_.steering.push_back(event_json::to_steering(body));
     if (kind == "fault") record_.faults.push_back(event_json::to_fault(body));
@@ -65,7 +66,14 @@ class RecordReader {
 
   void add(ViewEvent view) {
     last_s_ = std::max(last_s_, view.t_s);
+    fruits_ = view.fruits;
     record_.views.push_back(std::move(view));
+  }
+
+  void add(FrameEvent frame) {
+    last_s_ = std::max(last_s_, frame.t_s);
+    fruits_ = frame.fruits;
+    record_.frames.push_back(std::move(frame));
   }
 
   void add(MotionEvent motion) {
@@ -80,6 +88,7 @@ class RecordReader {
 
   RunRecord record_;
   double last_s_ = 0.0;
+  std::vector<FruitSnapshot> fruits_;  // of the last frame
 };
 
 Expected<void> check_version(const Json& line) {

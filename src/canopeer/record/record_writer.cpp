@@ -3,6 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <utility>
 
 #include "canopeer/record/event_json.h"
 #include "canopeer/record/record_file.h"
@@ -15,6 +16,7 @@ struct RecordWriter::File {
   std::filesystem::path path;
   std::ofstream out;
   std::uint64_t bytes = 0;
+  std::vector<FruitSnapshot> fruits;  // of the last frame
 
   Expected<void> line(const Json& json) {
     // A name that is not UTF-8 must not cost the run its record.
@@ -52,10 +54,12 @@ Expected<RecordWriter> RecordWriter::create(const std::filesystem::path& run_dir
 }
 
 Expected<RecordWriter> RecordWriter::resume(const std::filesystem::path& run_dir,
-                                            std::uint64_t bytes) {
+                                            std::uint64_t bytes,
+                                            std::vector<FruitSnapshot> fruits) {
   auto file = std::make_unique<File>();
   file->path = run_dir / "record";
   file->bytes = bytes;
+  file->fruits = std::move(fruits);
   std::error_code code;
   const auto there = std::filesystem::file_size(file->path, code);
   if (code) return fail(file->path.string() + ": cannot read: " + code.message());
@@ -81,7 +85,13 @@ Expected<void> RecordWriter::end_segment(int segment, double end_s) {
 }
 
 Expected<void> RecordWriter::add(const ViewEvent& view) {
+  file_->fruits = view.fruits;
   return file_->line({{"view", event_json::from(view)}});
+}
+
+Expected<void> RecordWriter::add(const FrameEvent& frame) {
+  const std::vector<FruitSnapshot> before = std::exchange(file_->fruits, frame.fruits);
+  return file_->line({{"frame", event_json::from(frame, before)}});
 }
 
 Expected<void> RecordWriter::add(const MotionEvent& motion) {

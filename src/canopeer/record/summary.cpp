@@ -21,6 +21,7 @@ void for_each_field(AnySummary& summary, Visit&& visit) {
   visit("segments", summary.segments);
   visit("interrupted", summary.interrupted);
   visit("sim_time_s", summary.sim_time_s);
+  visit("mission_time_s", summary.mission_time_s);
   visit("wall_time_s", summary.wall_time_s);
   visit("views", summary.views);
   visit("roi_voxels", summary.roi_voxels);
@@ -50,6 +51,10 @@ void for_each_field(AnySummary& summary, Visit&& visit) {
   visit("pixel_precision", summary.pixel_precision);
   visit("pixel_recall", summary.pixel_recall);
   visit("pixel_iou", summary.pixel_iou);
+  visit("frames_fused", summary.frames_fused);
+  visit("frames_late", summary.frames_late);
+  visit("frames_blurred", summary.frames_blurred);
+  visit("frames_alike", summary.frames_alike);
   visit("joint_path_length_rad", summary.joint_path_length_rad);
   visit("motion_time_s", summary.motion_time_s);
   visit("planning_time_s", summary.planning_time_s);
@@ -93,13 +98,15 @@ namespace {
 /// Of all frames together; none: no frame had labels.
 void score_pixels(const RunRecord& record, RunScores& scores) {
   std::optional<PixelHits> sum;
-  for (const ViewEvent& view : record.views) {
-    if (!view.pixels) continue;
+  const auto add = [&sum](const std::optional<PixelHits>& pixels) {
+    if (!pixels) return;
     if (!sum) sum.emplace();
-    sum->right += view.pixels->right;
-    sum->wrong += view.pixels->wrong;
-    sum->missed += view.pixels->missed;
-  }
+    sum->right += pixels->right;
+    sum->wrong += pixels->wrong;
+    sum->missed += pixels->missed;
+  };
+  for (const ViewEvent& view : record.views) add(view.pixels);
+  for (const FrameEvent& frame : record.frames) add(frame.pixels);
   if (!sum) return;
   scores.pixel_precision = sum->precision();
   scores.pixel_recall = sum->recall();
@@ -112,6 +119,12 @@ void add_up_motions(const RunRecord& record, RunScores& scores) {
     scores.motion_time_s += motion.duration_s;
     scores.collisions += motion.collision;
     scores.plant_contacts += motion.plant_contact;
+    if (!motion.frames) continue;
+    const auto count = [](std::optional<int>& sum, int more) { sum = sum.value_or(0) + more; };
+    count(scores.frames_fused, motion.frames->fused);
+    count(scores.frames_late, motion.frames->late);
+    count(scores.frames_blurred, motion.frames->blurred);
+    count(scores.frames_alike, motion.frames->alike);
   }
   for (const ViewEvent& view : record.views) scores.planning_time_s += view.planning_s;
 }
@@ -129,6 +142,7 @@ Summary summary_of(const RunRecord& record) {
   s.segments = static_cast<int>(record.segments.size());
   s.interrupted = record.interrupted;
   s.sim_time_s = record.end_s;
+  if (header.mission_time_s > 0.0) s.mission_time_s = header.mission_time_s;
   s.views = static_cast<int>(record.views.size());
   if (!record.views.empty()) {
     s.roi_voxels = record.views.back().roi_voxels;

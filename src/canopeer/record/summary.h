@@ -47,6 +47,12 @@ struct RunScores {
   std::optional<double> pixel_recall;
   std::optional<double> pixel_iou;
 
+  // Of the frames that came while arm or trolley moved; null: none were wanted.
+  std::optional<int> frames_fused;
+  std::optional<int> frames_late;     ///< perception was busy
+  std::optional<int> frames_blurred;  ///< more than the mission allows
+  std::optional<int> frames_alike;    ///< the camera had hardly moved
+
   double joint_path_length_rad = 0.0;  ///< Σ|Δq| of all motions
   double motion_time_s = 0.0;          ///< of all motions, transitions included
   double planning_time_s = 0.0;        ///< standing still before views
@@ -65,6 +71,9 @@ struct Summary : RunScores {
   int segments = 0;          ///< begun
   bool interrupted = false;  ///< ended before all segments were over
   double sim_time_s = 0.0;
+  /// What found and times are counted over, where the mission's clock never stops; null: over
+  /// sim_time_s.
+  std::optional<double> mission_time_s;
   double wall_time_s = 0.0;
   int views = 0;
   std::int64_t roi_voxels = 0;  ///< distinct ROI voxels in the map at the end

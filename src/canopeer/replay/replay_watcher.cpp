@@ -9,8 +9,9 @@ namespace {
 
 /// What comes between a frame and the fruits in it belongs to one view.
 bool within_a_view(const Event& event) {
-  return std::holds_alternative<FrameTaken>(event) || std::holds_alternative<MapChanged>(event) ||
-         std::holds_alternative<Planned>(event);
+  return std::holds_alternative<FrameTaken>(event) ||
+         std::holds_alternative<FrameOnTheWay>(event) ||
+         std::holds_alternative<MapChanged>(event) || std::holds_alternative<Planned>(event);
 }
 
 }  // namespace

@@ -53,6 +53,8 @@ struct RunFrames::State {
                view_frame(taken.view, trolley(taken.view.segment), other ? &camera : nullptr));
     return all;
   }
+  /// Fruits and map tell of them, several at once; the arm is drawn along its motion anyway.
+  std::vector<Frame> frames(const FrameOnTheWay&) const { return {}; }
   std::vector<Frame> frames(const MapChanged& change) {
     std::vector<Frame> all;
     if (change.map) all.push_back(map.map(change.view, change.t_s, *change.map, change.blocks));

@@ -29,6 +29,7 @@ RunHeader header_of(const MissionFile& file) {
   header.compute_table = file.compute_table;
   header.segments = static_cast<int>(file.mission.segments.size());
   header.segment_time_s = file.mission.segment_time_s;
+  header.mission_time_s = file.mission.mission_time_s;
   header.settings_json = file.settings_json;
   return header;
 }

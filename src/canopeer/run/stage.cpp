@@ -6,6 +6,7 @@
 
 #include "canopeer/base/exact_text.h"
 #include "canopeer/config/robot_file.h"
+#include "canopeer/mission/mission_time.h"
 
 namespace canopeer {
 namespace {
@@ -108,6 +109,10 @@ Expected<std::unique_ptr<Stage>> Stage::make(MissionFile file, const StageReques
   auto ik = ArmIk::make(*robot);
   if (!ik) return tl::unexpected(ik.error());
   if (auto ok = check(file, *robot, registries); !ok) return tl::unexpected(ok.error());
+  MissionOptions& mission = file.mission;
+  if (mission.clock == MissionClock::whole) {
+    mission.mission_time_s = whole_mission_time_s(*robot, mission);
+  }
   std::unique_ptr<Stage> stage(
       new Stage(std::move(file), std::move(*robot), std::move(*ik), registries));
   auto site = registries.sites.make(request.site, {stage->file_, stage->robot_, request.callbacks});

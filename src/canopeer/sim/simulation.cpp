@@ -1,13 +1,15 @@
 #include "canopeer/sim/simulation.h"
 
 #include <algorithm>
+#include <cmath>
+#include <mutex>
 
 #include "canopeer/base/exact_text.h"
 #include "canopeer/base/rng.h"
 #include "canopeer/geometry/state_archive.h"
 #include "canopeer/render/renderer.h"
 #include "canopeer/robot/corner_rounding.h"
-#include "canopeer/robot/straight_timing.h"
+#include "canopeer/sim/robot_track.h"
 #include "canopeer/sim/simulation_time.h"
 
 namespace canopeer {
@@ -47,6 +49,7 @@ struct Simulation::State {
         time(o.realtime),
         q(start),
         trolley(place),
+        track_(model, start, place),
         arrival_errors(o.seed, "arrival error") {}
 
   const RobotModel& robot;
@@ -58,8 +61,23 @@ struct Simulation::State {
   SimulationTime time;
   Configuration q;
   TrolleyState trolley;
+  RobotTrack track_;
+  mutable std::mutex track_mutex;  // frames are fetched in another thread
   Rng arrival_errors;
   std::uint64_t frames = 0;  // taken
+
+  RobotTrack track() const {
+    const std::scoped_lock lock(track_mutex);
+    return track_;
+  }
+  template <typename F>
+  auto change_track(F&& change) {
+    const std::scoped_lock lock(track_mutex);
+    return change(track_);
+  }
+  void stand() {
+    change_track([&](RobotTrack& t) { t.stand(q, trolley); });
+  }
 };
 
 class Simulation::SimClock : public Clock {
@@ -89,7 +107,9 @@ class Simulation::SimArm : public Arm {
     for (const Configuration& q : waypoints) {
       if (!state_.robot.within_limits(q)) return fail("a waypoint is beyond the joint limits");
     }
+    const double now_s = state_.time.now_s();
     const double duration_s = motion_time(path, state_.robot.limits());
+    state_.change_track([&](RobotTrack& t) { t.move_arm(path, now_s); });
     // Judged now, on the map as it is when the motion starts.
     const auto pause = state_.time.pause();
     const Verdict verdict = state_.judge.judge(points_along(path), state_.trolley, state_.map);
@@ -103,6 +123,7 @@ class Simulation::SimArm : public Arm {
   Expected<MotionOutcome> finish() override {
     state_.time.pass_until(end_s_);
     state_.q = outcome_.q;
+    state_.stand();
     return outcome_;
   }
 
@@ -127,8 +148,12 @@ class Simulation::SimTrolley : public Trolley {
   explicit SimTrolley(State& state) : state_(state) {}
   TrolleyState state() const override { return state_.trolley; }
 
-  /// One axis after the other, as the linear drives of such trolleys do.
   Expected<void> move_to(const TrolleyState& goal) override {
+    if (auto started = start(goal, 0.0); !started) return tl::unexpected(started.error());
+    return finish();
+  }
+
+  Expected<double> start(const TrolleyState& goal, double max_travel_m_s) override {
     const Joint& travel = state_.robot.travel_axis();
     const Joint& lift = state_.robot.lift_axis();
     const auto outside = [](const Joint& axis, double value) {
@@ -138,20 +163,24 @@ class Simulation::SimTrolley : public Trolley {
       return fail("the goal is beyond the axes' limits (travel " + exact_text(goal.travel_m) +
                   " m, lift " + exact_text(goal.lift_m) + " m)");
     }
-    const auto time = [](const Joint& axis, double distance) {
-      return distance == 0.0
-                 ? 0.0
-                 : axis_motion_time(distance, axis.velocity_limit, axis.acceleration_limit);
-    };
-    state_.time.pass_until(state_.time.now_s() +
-                           time(travel, std::abs(goal.travel_m - state_.trolley.travel_m)) +
-                           time(lift, std::abs(goal.lift_m - state_.trolley.lift_m)));
-    state_.trolley = goal;
+    goal_ = goal;
+    const double duration_s = state_.change_track(
+        [&](RobotTrack& t) { return t.drive(goal, max_travel_m_s, state_.time.now_s()); });
+    end_s_ = state_.time.now_s() + duration_s;
+    return duration_s;
+  }
+
+  Expected<void> finish() override {
+    state_.time.pass_until(end_s_);
+    state_.trolley = goal_;
+    state_.stand();
     return {};
   }
 
  private:
   State& state_;
+  TrolleyState goal_;
+  double end_s_ = 0.0;
 };
 
 class Simulation::SimCamera : public Camera {
@@ -167,8 +196,48 @@ class Simulation::SimCamera : public Camera {
     return frame;
   }
 
+  /// Frames are exposed at whole multiples of the period.
+  Expected<void> stream(double hz) override {
+    hz_ = hz;
+    next_ = hz > 0.0 ? static_cast<std::int64_t>(std::floor(state_.time.now_s() * hz)) + 1 : 0;
+    return {};
+  }
+
+  Expected<std::vector<StreamedFrame>> arrived() override {
+    std::vector<StreamedFrame> frames;
+    if (hz_ <= 0.0) return frames;
+    const double now_s = state_.time.now_s();
+    const double latency_s = 0.0 /*TMP*/;
+    for (; static_cast<double>(next_) / hz_ + latency_s <= now_s; ++next_) {
+      frames.push_back(frame_at(static_cast<double>(next_) / hz_));
+      frames.back().arrived_s = static_cast<double>(next_) / hz_ + latency_s;
+    }
+    return frames;
+  }
+
  private:
+  /// Its images are rendered when somebody wants them.
+  StreamedFrame frame_at(double exposed_s) {
+    const std::uint64_t number = state_.frames++;
+    const RobotTrack track = state_.track();  // another motion may have begun by then
+    StreamedFrame frame;
+    frame.time_s = exposed_s /*TMP*/;
+    frame.intrinsics = state_.options.camera;
+    frame.T_world_camera = track.camera_at(frame.time_s);
+    frame.twist = track.twist_at(frame.time_s);
+    frame.q = track.arm_at(frame.time_s);
+    frame.trolley = track.trolley_at(frame.time_s);
+    frame.images = [this, track, exposed_s, number]() -> Expected<RgbdFrame> {
+      RgbdFrame TMP = state_.sensor.capture(track.camera_at(exposed_s), number);
+      TMP.time_s = exposed_s;
+      return TMP;
+    };
+    return frame;
+  }
+
   State& state_;
+  double hz_ = 0.0;
+  std::int64_t next_ = 0;  // multiple of the period
 };
 
 Simulation::Simulation(const RobotModel& robot, const Scene& scene, const Configuration& q,
@@ -202,6 +271,7 @@ Expected<void> Simulation::restore(std::string_view state) {
   s.trolley = then.trolley;
   s.arrival_errors = then.arrival_errors;
   s.frames = then.frames;
+  s.stand();
   return {};
 }
 

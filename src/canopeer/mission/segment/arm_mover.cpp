@@ -34,13 +34,16 @@ std::vector<Configuration> way_to(const Configuration& q,
 }  // namespace
 
 ArmMover::ArmMover(const RobotModel& robot, const Ports& ports, Traveller& traveller,
-                   Timekeeper& time, EventHub& events, MissionCursor& cursor)
+                   Timekeeper& time, FramesOnTheWay& frames, EventHub& events,
+                   MissionCursor& cursor, const std::optional<ImageMotionLimit>& sharp)
     : robot_(robot),
       ports_(ports),
       traveller_(traveller),
       time_(time),
+      frames_(frames),
       events_(events),
-      cursor_(cursor) {}
+      cursor_(cursor),
+      sharp_(sharp) {}
 
 Expected<MotionEnd> ArmMover::move(const std::string& kind,
                                    const std::vector<Configuration>& waypoints,
@@ -60,19 +63,25 @@ Expected<MotionEnd> ArmMover::move(const std::string& kind,
   if (!duration) return fail_in("arm", duration.error());
 
   auto told = events_.emit(MotionBegun{kind, motion.segment, motion.start_s, *duration, path});
-  time_.goes_on(*duration);
+  auto looked = frames_.set_out(kind);
+  if (looked) looked = frames_.go_along(*duration);
   const auto outcome = time_.timer().time("arm", [&] { return ports_.arm->finish(); });
+  const double arrived_s = time_.now_s();
+  const auto frames = frames_.arrive();
   if (!outcome) return fail_in("arm", outcome.error());
+  if (!looked) return tl::unexpected(looked.error());
+  if (!frames) return tl::unexpected(frames.error());
+  motion.frames = *frames;
   const bool arrived = outcome->end == MotionEnd::arrived;
   traveller_.took(arrived ? waypoints : way_to(outcome->q, waypoints));
   if (!arrived) motion.ended = motion_end_name(outcome->end);
   motion.why = outcome->why;
-  motion.duration_s = time_.now_s() - motion.start_s;
+  motion.duration_s = arrived_s - motion.start_s;
   motion.collision = outcome->collision;
   motion.plant_contact = outcome->plant_contact;
   cursor_.last_standing_s = motion.start_s - cursor_.standing_since_s;
   cursor_.last_motion_s = motion.duration_s;
-  cursor_.standing_since_s = time_.now_s();
+  cursor_.standing_since_s = arrived_s;
   if (told) told = events_.emit(MotionEnded{std::move(motion)});
   if (told) told = mind(*outcome);
   if (!told) return tl::unexpected(told.error());
@@ -98,13 +107,14 @@ Expected<void> ArmMover::mind(const MotionOutcome& outcome) {
 
 JointPath ArmMover::without_needless_stops(const std::vector<Configuration>& waypoints,
                                            const CollisionChecker& checker) {
-  if (waypoints.size() < 3) return {waypoints};
+  if (waypoints.size() < 3) return {waypoints, {}, sharp_};
   int states = 0;
   JointPath path = time_.timer().time(
       "arm", [&] { return round_corners(waypoints, robot_.limits(), checker, states); });
   WorkMeter work;
   work.add(Work::motion_plan, states);
   time_.pay(work);
+  path.sharp = sharp_;
   return path;
 }
 
@@ -126,16 +136,31 @@ Expected<MotionEnd> ArmMover::go_home(const Configuration& home, const Collision
   return MotionEnd::arrived;
 }
 
-Expected<void> ArmMover::drive(const TrolleyState& goal) {
+Expected<void> ArmMover::drive(const TrolleyState& goal, double max_travel_m_s) {
   const TrolleyState from = ports_.trolley->state();
   if (goal.travel_m == from.travel_m && goal.lift_m == from.lift_m) return {};
   MotionEvent motion;
   motion.kind = "trolley";
   motion.segment = cursor_.segment;
   motion.start_s = time_.now_s();
-  if (auto ok = ports_.trolley->move_to(goal); !ok) return fail_in("trolley", ok.error());
+  if (auto ok = drive_looking(goal, max_travel_m_s, motion); !ok) return ok;
   motion.duration_s = time_.now_s() - motion.start_s;
   return events_.emit(MotionEnded{std::move(motion)});
+}
+
+Expected<void> ArmMover::drive_looking(const TrolleyState& goal, double max_travel_m_s,
+                                       MotionEvent& motion) {
+  const auto duration = ports_.trolley->start(goal, max_travel_m_s);
+  if (!duration) return fail_in("trolley", duration.error());
+  auto looked = frames_.set_out(motion.kind);
+  if (looked && frames_.wanted()) looked = frames_.go_along(*duration);
+  const auto driven = ports_.trolley->finish();
+  const auto frames = frames_.arrive();
+  if (!driven) return fail_in("trolley", driven.error());
+  if (!looked) return looked;
+  if (!frames) return tl::unexpected(frames.error());
+  motion.frames = *frames;
+  return {};
 }
 
 }  // namespace canopeer

@@ -5,18 +5,20 @@
 
 #include "canopeer/mission/events/event_hub.h"
 #include "canopeer/mission/mission_cursor.h"
+#include "canopeer/mission/segment/frames_on_the_way.h"
 #include "canopeer/mission/segment/timekeeper.h"
 #include "canopeer/mission/segment/traveller.h"
 
 namespace canopeer {
 
 /// Moves the arm and the trolley, and says so. While the arm moves the planner's background work
-/// goes on.
+/// goes on, and frames are taken where they are wanted.
 class ArmMover {
  public:
-  /// All outlive it; `cursor` is told how long the arm stood and moved.
+  /// All outlive it; `cursor` is told how long the arm stood and moved. `sharp`: of all motions.
   ArmMover(const RobotModel& robot, const Ports& ports, Traveller& traveller, Timekeeper& time,
-           EventHub& events, MissionCursor& cursor);
+           FramesOnTheWay& frames, EventHub& events, MissionCursor& cursor,
+           const std::optional<ImageMotionLimit>& sharp);
 
   [[nodiscard]] Configuration where() const { return ports_.arm->configuration(); }
   [[nodiscard]] TrolleyState trolley() const { return ports_.trolley->state(); }
@@ -30,20 +32,25 @@ class ArmMover {
   /// To `home`. The error says that no way was found.
   [[nodiscard]] Expected<MotionEnd> go_home(const Configuration& home,
                                             const CollisionChecker& checker);
-  /// The trolley, with the arm at home; nothing happens when it is there.
-  [[nodiscard]] Expected<void> drive(const TrolleyState& goal);
+  /// The trolley, with the arm at rest; nothing happens when it is there. Along the row no faster
+  /// than `max_travel_m_s` (0: as fast as it can).
+  [[nodiscard]] Expected<void> drive(const TrolleyState& goal, double max_travel_m_s = 0.0);
 
  private:
   [[nodiscard]] JointPath without_needless_stops(const std::vector<Configuration>& waypoints,
                                                  const CollisionChecker& checker);
+  [[nodiscard]] Expected<void> drive_looking(const TrolleyState& goal, double max_travel_m_s,
+                                             MotionEvent& motion);
   [[nodiscard]] Expected<void> mind(const MotionOutcome& outcome);
 
   const RobotModel& robot_;
   Ports ports_;
   Traveller& traveller_;
   Timekeeper& time_;
+  FramesOnTheWay& frames_;
   EventHub& events_;
   MissionCursor& cursor_;
+  std::optional<ImageMotionLimit> sharp_;
 };
 
 }  // namespace canopeer

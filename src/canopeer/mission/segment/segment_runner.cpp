@@ -19,6 +19,7 @@ SegmentFrame segment_frame(const RobotModel& robot, const SegmentPlan& plan, int
   frame.workspace_base = robot.workspace(plan.side);
   frame.sampling_region_world = transformed(robot.sampling_region(plan.side), frame.T_world_base);
   frame.home = robot.home("side_" + std::to_string(plan.side));
+  frame.row = plan.row;
   return frame;
 }
 
@@ -31,13 +32,23 @@ SegmentRunner::SegmentRunner(const SegmentTools& tools, int index)
                            tools.options.segments[static_cast<std::size_t>(index)], index,
                            tools.arm.trolley())),
       checker_(tools.robot.model, frame_.trolley, tools.options.collision) {
-  const Box& known_free = tools_.robot.model.setup().known_free;
+  stand_at(frame_.trolley);
+}
+
+/// Distances and checks are wanted around where the trolley stands now.
+void SegmentRunner::stand_at(const TrolleyState& trolley) {
+  const RobotModel& robot = tools_.robot.model;
   tools_.time.background().alone([&](Planner&) {
+    frame_ = segment_frame(robot, tools_.options.segments[static_cast<std::size_t>(index_)], index_,
+                           trolley);
+    checker_ = CollisionChecker(robot, trolley, tools_.options.collision);
+    const Box& known_free = robot.setup().known_free;
     tools_.perception.move_field(
         frame_.T_world_base.translation(),
         known_free.isEmpty() ? known_free : transformed(known_free, frame_.T_world_base));
     checker_.set_map(&tools_.perception.field());
   });
+  tools_.frames.plan_with({frame_.sampling_region_world, [this] { return snapshot(); }});
 }
 
 Expected<void> SegmentRunner::begin() {
@@ -82,11 +93,27 @@ PlanningScene SegmentRunner::planning_scene() const {
   scene.snapshot = snapshot();
   scene.segment = frame_;
   scene.seed = tools_.options.seed;
+  scene.looks_on_the_way = tools_.frames.wanted();
+  scene.sharp = tools_.options.on_the_way.limit();
   return scene;
 }
 
+double SegmentRunner::budget_s() const {
+  const auto index = static_cast<std::size_t>(index_);
+  if (!tools_.deadlines_s.empty()) {
+    return tools_.deadlines_s[index] + tools_.cursor.held_s - tools_.cursor.segment_start_s;
+  }
+  const double own_s = tools_.options.segments[index].time_s;
+  return own_s > 0.0 ? own_s : tools_.options.segment_time_s;
+}
+
 bool SegmentRunner::time_is_up() const {
-  return tools_.time.now_s() - tools_.cursor.segment_start_s >= tools_.options.segment_time_s;
+  return tools_.time.now_s() - tools_.cursor.segment_start_s >= budget_s();
+}
+
+bool SegmentRunner::mission_is_over() const {
+  return !tools_.deadlines_s.empty() &&
+         tools_.time.now_s() >= tools_.deadlines_s.back() + tools_.cursor.held_s;
 }
 
 Expected<void> SegmentRunner::step() {
@@ -99,12 +126,14 @@ Expected<void> SegmentRunner::step() {
       return {};
     case Decision::Action::stuck:
       return recover();
+    case Decision::Action::drive:
+      return drive(decision.drive);
   }
   return {};
 }
 
 Expected<void> SegmentRunner::end() {
-  const double latest_s = tools_.cursor.segment_start_s + tools_.options.segment_time_s;
+  const double latest_s = tools_.cursor.segment_start_s + budget_s();
   return tools_.events.emit(SegmentEnded{index_, std::min(tools_.time.now_s(), latest_s)});
 }
 
@@ -206,6 +235,15 @@ Expected<void> SegmentRunner::take(const ViewMotion& motion) {
   // Where it stands is a place as good as another, but twice in a row asks for another way.
   if (tools_.cursor.missed_motions > 1) return recover();
   return observe(motion.kind, std::nullopt);
+}
+
+/// The trolley drives with the arm as it is, and the planner is told where it is now.
+Expected<void> SegmentRunner::drive(const RowDrive& drive) {
+  if (auto ok = tools_.arm.drive(drive.goal, drive.max_travel_m_s); !ok) return ok;
+  stand_at(tools_.arm.trolley());
+  const PlanningScene scene = planning_scene();
+  tools_.time.background().alone([&](Planner& planner) { planner.moved(scene); });
+  return observe(TargetKind::none, std::nullopt);
 }
 
 /// The planner knows no way on. At another place it may: home is one that can always be reached.

@@ -17,9 +17,12 @@ struct SegmentTools {
   Perception& perception;
   FrameTaker& camera;
   ArmMover& arm;
+  FramesOnTheWay& frames;
   Timekeeper& time;
   EventHub& events;
   MissionCursor& cursor;
+  /// When each segment has to be over, mission time, s; empty: each has its own clock.
+  const std::vector<double>& deadlines_s;
 };
 
 /// One segment: the arm stands at its home state, the trolley at its stop. Senses, maps, plans and
@@ -30,7 +33,10 @@ class SegmentRunner {
   SegmentRunner(const SegmentTools& tools, int index);
   SegmentRunner(const SegmentRunner&) = delete;
   SegmentRunner& operator=(const SegmentRunner&) = delete;
-  ~SegmentRunner() { rest(); }
+  ~SegmentRunner() {
+    rest();
+    tools_.frames.plan_with({});
+  }
 
   /// The planner is told of the segment, the first frame is taken.
   [[nodiscard]] Expected<void> begin();
@@ -50,12 +56,17 @@ class SegmentRunner {
   void rest() { tools_.time.background().rest(); }
 
  private:
+  void stand_at(const TrolleyState& trolley);
+  [[nodiscard]] double budget_s() const;
+  /// What is seen now does not count any more.
+  [[nodiscard]] bool mission_is_over() const;
   [[nodiscard]] PlanningScene planning_scene() const;
   [[nodiscard]] Expected<void> observe(TargetKind kind, std::optional<std::int64_t> predicted);
   [[nodiscard]] ViewEvent view_event(const Look& look, TargetKind kind,
                                      std::optional<std::int64_t> predicted);
   [[nodiscard]] Expected<void> tell(const Look& look, ViewEvent view);
   [[nodiscard]] Expected<void> take(const ViewMotion& motion);
+  [[nodiscard]] Expected<void> drive(const RowDrive& drive);
   [[nodiscard]] Expected<void> recover();
   [[nodiscard]] std::shared_ptr<const MapSnapshot> snapshot() const;
   Decision decide();

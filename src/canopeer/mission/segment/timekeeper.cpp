@@ -24,6 +24,10 @@ void Timekeeper::pass(double seconds) {
   goes_on(seconds);
 }
 
+void Timekeeper::aside(const WorkMeter& work) {
+  background_.beside([&](Planner&) { meters_.background.merge(work); });
+}
+
 void Timekeeper::goes_on(double seconds) {
   timer_.time("planner: graph", [&] { background_.time_passes(seconds); });
 }

@@ -15,10 +15,13 @@ class Timekeeper {
              StageTimer& timer);
 
   [[nodiscard]] double now_s() const { return clock_.now_s(); }
+  [[nodiscard]] bool simulated() const { return clock_.simulated(); }
   /// Foreground work costs mission time; the background goes on in it.
   void pay(const WorkMeter& work);
   /// Nothing to do for so long.
   void pass(double seconds);
+  /// Work of another core than the mission's was done.
+  void aside(const WorkMeter& work);
   /// Something else takes so long.
   void goes_on(double seconds);
 

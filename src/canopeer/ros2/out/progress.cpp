@@ -70,6 +70,11 @@ void Progress::add(const Event& event) {
                         graph_edges_ = e.view.graph_edges;
                         fruits_ = static_cast<int>(e.view.fruits.size());
                       },
+                      [&](const FrameOnTheWay& e) {
+                        t_s_ = e.frame.t_s;
+                        fused_points_ += e.frame.fused_points;
+                        fruits_ = static_cast<int>(e.frame.fruits.size());
+                      },
                       [&](const MapChanged& e) { t_s_ = e.t_s; },
                       [&](const FruitsFound& e) {
                         t_s_ = e.t_s;

@@ -1,0 +1,246 @@
+#include "canopeer/mission/segment/frames_on_the_way.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "canopeer/sensing/camera_twist.h"
+
+namespace canopeer {
+namespace {
+
+constexpr std::chrono::milliseconds kNextLook(3);  // for frames, on the wall clock
+
+/// Of every 16th pixel each way; 0: it shows nothing.
+double median_depth_m(const DepthImage& depth) {
+  std::vector<float> seen;
+  for (int v = 8; v < depth.height(); v += 16) {
+    for (int u = 8; u < depth.width(); u += 16) {
+      if (depth.at(u, v) > 0.0F) seen.push_back(depth.at(u, v));
+    }
+  }
+  if (seen.empty()) return 0.0;
+  const auto middle = seen.begin() + static_cast<std::ptrdiff_t>(seen.size() / 2);
+  std::nth_element(seen.begin(), middle, seen.end());
+  return *middle;
+}
+
+}  // namespace
+
+FramesOnTheWay::FramesOnTheWay(const RobotModel& robot, const Ports& ports,
+                               const MissionOptions& options, Perception& perception,
+                               Timekeeper& time, EventHub& events, const MissionCursor& cursor)
+    : robot_(robot),
+      ports_(ports),
+      options_(options),
+      perception_(perception),
+      time_(time),
+      events_(events),
+      cursor_(cursor),
+      self_filter_(robot, options.self_filter) {}
+
+FramesOnTheWay::~FramesOnTheWay() = default;
+
+/// After the mission's time nothing counts any more.
+bool FramesOnTheWay::counts() const {
+  return wanted() && (options_.mission_time_s <= 0.0 || time_.now_s() < end_s());
+}
+
+Expected<void> FramesOnTheWay::set_out(const std::string& during) {
+  counts_ = FrameCounts();
+  open_ = counts();
+  if (!open_) return {};
+  during_ = during;
+  T_last_ = robot_.T_world_base(ports_.trolley->state()) *
+            robot_.T_base_camera(ports_.arm->configuration());
+  if (distance_m_ <= 0.0) distance_m_ = options_.on_the_way.sharp_distance_m;
+  if (auto ok = ports_.camera->stream(options_.on_the_way.hz); !ok) {
+    return fail_in("camera", ok.error());
+  }
+  free_s_ = time_.now_s();
+  if (!time_.simulated()) {
+    thread_ = std::jthread([this](const std::stop_token& stop) { work_until_told(stop); });
+  }
+  return {};
+}
+
+Expected<void> FramesOnTheWay::go_along(double duration_s) {
+  if (!open_ || !time_.simulated()) {
+    time_.goes_on(duration_s);
+    return {};
+  }
+  const int slices =
+      std::max(1, static_cast<int>(std::ceil(duration_s / options_.on_the_way.tell_every_s)));
+  for (int i = 0; i < slices; ++i) {
+    if (during_ == "trolley") {
+      ports_.clock->sleep(duration_s / slices);  // nobody plans for where it leaves from
+    } else {
+      time_.pass(duration_s / slices);
+    }
+    if (auto ok = fetch(); !ok) return ok;
+    if (auto ok = work_off(time_.now_s()); !ok) return ok;
+    if (auto ok = tell(); !ok) return ok;
+  }
+  return {};
+}
+
+Expected<std::optional<FrameCounts>> FramesOnTheWay::arrive() {
+  if (!open_) return std::optional<FrameCounts>();
+  open_ = false;
+  if (thread_.joinable()) {
+    thread_.request_stop();
+    thread_.join();
+    if (!failure_) return tl::unexpected(std::exchange(failure_, {}).error());
+  }
+  if (auto ok = fetch(); !ok) return tl::unexpected(ok.error());
+  if (auto ok = work_off(std::numeric_limits<double>::infinity()); !ok) {
+    return tl::unexpected(ok.error());
+  }
+  if (time_.simulated()) ports_.clock->sleep(std::max(0.0, free_s_ - time_.now_s()));
+  if (auto ok = tell(); !ok) return tl::unexpected(ok.error());
+  if (auto ok = ports_.camera->stream(0.0); !ok) return tl::unexpected(ok.error());
+  time_.timer().add(std::exchange(stages_, {}));
+  return std::optional(counts_);
+}
+
+/// On the wall clock: frames as they come, one after the other.
+void FramesOnTheWay::work_until_told(const std::stop_token& stop) {
+  double told_s = time_.now_s();
+  try {
+    while (!stop.stop_requested()) {
+      failure_ = fetch();
+      if (failure_ && !waiting_.empty()) {
+        const StreamedFrame frame = std::move(waiting_.front());
+        waiting_.pop_front();
+        failure_ = take_in(frame);
+      } else {
+        std::this_thread::sleep_for(kNextLook);
+      }
+      if (failure_ && time_.now_s() - told_s >= options_.on_the_way.tell_every_s) {
+        told_s = time_.now_s();
+        failure_ = tell();
+      }
+      if (!failure_) return;
+    }
+  } catch (const std::exception& error) {
+    failure_ = fail(std::string("an exception: ") + error.what());
+  }
+}
+
+Expected<void> FramesOnTheWay::fetch() {
+  auto frames = ports_.camera->arrived();
+  if (!frames) return fail_in("camera", frames.error());
+  for (StreamedFrame& frame : *frames) {
+    // Until this one came, those before it were worked on.
+    if (time_.simulated()) {
+      if (auto ok = work_off(frame.arrived_s); !ok) return ok;
+    }
+    admit(std::move(frame));
+  }
+  return {};
+}
+
+void FramesOnTheWay::admit(StreamedFrame frame) {
+  if (options_.mission_time_s > 0.0 && frame.time_s > end_s()) return;
+  if (static_cast<int>(waiting_.size()) >= options_.on_the_way.queue) {
+    ++counts_.late;
+    return;
+  }
+  double blur_px = 0.0;
+  if (alike(frame)) {
+    ++counts_.alike;
+  } else if (too_blurred(frame, &blur_px)) {
+    ++counts_.blurred;
+  } else {
+    T_last_ = frame.T_world_camera;
+    waiting_.push_back(std::move(frame));
+  }
+}
+
+bool FramesOnTheWay::alike(const StreamedFrame& frame) const {
+  const Pose T = T_last_.inverse() * frame.T_world_camera;
+  return T.translation().norm() < options_.on_the_way.new_after_m &&
+         Eigen::AngleAxisd(Eigen::Matrix3d(T.linear())).angle() < options_.on_the_way.new_after_rad;
+}
+
+bool FramesOnTheWay::too_blurred(const StreamedFrame& frame, double* blur_px) const {
+  const OnTheWayOptions& o = options_.on_the_way;
+  *blur_px = o.exposure_s * image_speed(frame.twist, frame.intrinsics, distance_m_);
+  return o.max_blur_px > 0.0 && *blur_px > o.max_blur_px;
+}
+
+/// In simulated time: frames whose turn comes before `until_s`.
+Expected<void> FramesOnTheWay::work_off(double until_s) {
+  while (!waiting_.empty()) {
+    const double begin_s = std::max(free_s_, waiting_.front().arrived_s);
+    if (time_.simulated() && begin_s >= until_s) return {};
+    const StreamedFrame frame = std::move(waiting_.front());
+    waiting_.pop_front();
+    free_s_ = begin_s;
+    if (auto ok = take_in(frame); !ok) return ok;
+  }
+  return {};
+}
+
+Expected<void> FramesOnTheWay::take_in(const StreamedFrame& streamed) {
+  auto frame = stages_.time("camera", [&] { return streamed.images(); });
+  if (!frame) return fail_in("camera", frame.error());
+  if (options_.mask_robot) self_filter_.mask(*frame, streamed.q, streamed.trolley);
+  WorkMeter work;
+  auto seen = perception_.take_in(*frame, work, stages_);
+  if (!seen) return tl::unexpected(seen.error());
+  free_s_ += work.seconds(options_.costs);
+  time_.aside(work);
+  if (const double median_m = median_depth_m(frame->depth); median_m > 0.0) distance_m_ = median_m;
+  ++counts_.fused;
+  ++untold_;
+
+  FrameOnTheWay event;
+  FrameEvent& told = event.frame;
+  told.segment = cursor_.segment;
+  told.during = during_;
+  told.t_s = frame->time_s;
+  told.T_world_camera = frame->T_world_camera;
+  static_cast<void>(too_blurred(streamed, &told.blur_px));
+  told.realised_gain = seen->fused.newly_known;
+  told.fused_points = seen->fused.fused_points;
+  if (const auto& pixels = seen->pixels) {
+    told.pixels =
+        PixelHits{pixels->true_positives, pixels->false_positives, pixels->false_negatives};
+  }
+  for (const auto& fruit : perception_.fruits().fruits()) {
+    told.fruits.push_back({fruit.id, fruit.centre, fruit.volume_cm3, fruit.confidence});
+  }
+  event.images = std::make_shared<const RgbdFrame>(std::move(*frame));
+  event.detection = std::make_shared<const Detection>(std::move(seen->detection));
+  return events_.emit(std::move(event));
+}
+
+/// What the frames since the last time changed. Where nobody plans the map's changes wait for the
+/// next view: only its frame says which targets are left.
+Expected<void> FramesOnTheWay::tell() {
+  if (std::exchange(untold_, 0) == 0) return {};
+  const double now_s = time_.now_s();
+  const int view = cursor_.views - 1;
+  if (during_ == "view" && planning_.snapshot) {
+    WorkMeter work;
+    MapChange change = perception_.settle(planning_.region_world, work, stages_);
+    free_s_ += work.seconds(options_.costs);
+    time_.aside(work);
+    MapChanged told{now_s, view, change.blocks, nullptr, nullptr};
+    if (events_.needs().map) {
+      told.targets = std::make_shared<const FrontierTargets>(change.targets);
+      told.map = std::make_shared<const VoxelMap>(perception_.map());
+    }
+    if (auto ok = events_.emit(std::move(told)); !ok) return ok;
+    change.snapshot = planning_.snapshot();
+    stages_.time("planner: new map", [&] {
+      time_.background().beside([&](Planner& planner) { planner.map_changed(std::move(change)); });
+    });
+  }
+  return events_.emit(FruitsFound{now_s, view, perception_.fruits().fruits()});
+}
+
+}  // namespace canopeer
