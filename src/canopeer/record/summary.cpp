@@ -61,6 +61,10 @@ void for_each_field(AnySummary& summary, Visit&& visit) {
   visit("planning_time_s", summary.planning_time_s);
   visit("collisions", summary.collisions);
   visit("plant_contacts", summary.plant_contacts);
+  visit("time_offset_s", summary.time_offset_s);
+  visit("time_offset_se_s", summary.time_offset_se_s);
+  visit("hand_eye_translation_m", summary.hand_eye_translation_m);
+  visit("hand_eye_rotation_rad", summary.hand_eye_rotation_rad);
 }
 
 template <typename T>

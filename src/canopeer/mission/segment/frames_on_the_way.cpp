@@ -201,6 +201,7 @@ Expected<void> FramesOnTheWay::take_in(const StreamedFrame& streamed) {
   ++untold_;
 
   FrameOnTheWay event;
+  event.twist = streamed.twist;
   FrameEvent& told = event.frame;
   told.segment = cursor_.segment;
   told.during = during_;
