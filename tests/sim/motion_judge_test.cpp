@@ -19,9 +19,9 @@ struct Stop {
       : scene(make_world(world, 1)), judge(robot, scene), plain(robot, scene, trolley) {
     Simulation simulation(robot, scene, home, trolley, {});
     const Ports ports = simulation.ports();
+    Rng rng(4, "views of the stop");
     for (int i = 0; i < 6; ++i) {
-      Configuration q = home;
-      if (i > 0) q += 0.4 * Configuration::Random(q.size());
+      const Configuration q = around_home(rng, i == 0 ? 0.0 : 0.4);
       if (!ports.arm->start({{ports.arm->configuration(), q}})) continue;
       static_cast<void>(ports.arm->finish());
       fuse(map, *ports.camera->capture(), {}, {});
@@ -81,7 +81,7 @@ TEST_P(Judges, SayOfAnyStateWhatThePlainOneSays) {
     stop().expect_equal({stop().around_home(rng, 0.8)}, i % 4 != 0);
   }
   EXPECT_GT(stop().collisions, 50);
-  EXPECT_GT(stop().contacts, 50);
+  EXPECT_GT(stop().contacts, 20);
   EXPECT_LT(stop().collisions, stop().judged - 50);
 }
 

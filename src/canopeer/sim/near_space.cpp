@@ -73,15 +73,20 @@ NearSpace::NearSpace(const RobotModel& robot, const Scene& scene, const TrolleyS
 
 void NearSpace::add(const VoxelMap& map) {
   CANOPEER_CHECK(map.resolution_m() == edge_m(), "the map's voxels are the cells");
+  const VoxelIndex low = block_index(block_key(voxel_at(reach_world_.min(), edge_m())));
+  const VoxelIndex high = block_index(block_key(voxel_at(reach_world_.max(), edge_m())));
   std::vector<BlockUpdate> updates;
-  for (const BlockKey key : map.block_keys(reach_world_)) {
-    const VoxelMask fresh = added(map.block(key)->occupied, solid_.block(key));
-    if (!fresh.any()) continue;
+  map.for_each_block([&](BlockKey key, const BlockMasks& masks) {
+    const VoxelIndex block = block_index(key);
+    if ((block.array() < low.array()).any() || (block.array() > high.array()).any()) return;
+    if (!masks.occupied.any()) return;
+    const VoxelMask fresh = added(masks.occupied, solid_.block(key));
+    if (!fresh.any()) return;
     updates.emplace_back();
     updates.back().key = key;
     updates.back().hit = fresh;
-  }
-  mark(std::move(updates));
+  });
+  if (!updates.empty()) mark(std::move(updates));
 }
 
 void NearSpace::mark(std::vector<BlockUpdate> updates) {

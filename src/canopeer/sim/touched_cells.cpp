@@ -35,7 +35,14 @@ void TouchedCells::mark(const Box& box) {
   VoxelIndex cell;
   for (cell.z() = low.z(); cell.z() <= high.z(); ++cell.z()) {
     for (cell.y() = low.y(); cell.y() <= high.y(); ++cell.y()) {
-      for (cell.x() = low.x(); cell.x() <= high.x(); ++cell.x()) blocks_[block_key(cell)].set(cell);
+      for (cell.x() = low.x(); cell.x() <= high.x(); ++cell.x()) {
+        const BlockKey key = block_key(cell);
+        if (last_ == nullptr || key != last_key_) {
+          last_ = &blocks_[key];
+          last_key_ = key;
+        }
+        last_->set(cell);
+      }
     }
   }
 }

@@ -18,6 +18,9 @@ class TouchedCells {
   /// Marks the cells of one mesh, placed by `T_world_mesh`.
   void add(const TriangleMesh& mesh, const Pose& T_world_mesh);
 
+  TouchedCells(const TouchedCells&) = delete;
+  TouchedCells& operator=(const TouchedCells&) = delete;
+
   /// By block: the cells marked so far.
   [[nodiscard]] const std::unordered_map<BlockKey, VoxelMask>& blocks() const { return blocks_; }
 
@@ -28,6 +31,8 @@ class TouchedCells {
   double edge_m_;
   Box within_;
   std::unordered_map<BlockKey, VoxelMask> blocks_;
+  BlockKey last_key_ = 0;
+  VoxelMask* last_ = nullptr;  // the block of the cell marked last: the next one is near
 };
 
 }  // namespace canopeer
