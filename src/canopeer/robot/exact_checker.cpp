@@ -7,6 +7,8 @@
 #include <fcl/narrowphase/collision.h>
 
 #include <algorithm>
+#include <deque>
+#include <mutex>
 
 #include "canopeer/map/voxel_map.h"
 
@@ -62,26 +64,36 @@ struct Placed {
 }  // namespace
 
 struct MeshObstacles::Impl {
-  struct Part {
-    std::shared_ptr<Mesh> mesh;
-    Box bounds;
+  /// FCL's tree of the triangles is made when something comes near: most parts never need it.
+  class Part {
+   public:
+    explicit Part(const TriangleMesh& mesh) : triangles_(mesh), bounds_(mesh.bounds()) {}
+    [[nodiscard]] const Box& bounds() const { return bounds_; }
+    [[nodiscard]] const Mesh& tree() const {
+      std::call_once(made_, [&] { tree_ = make_mesh(triangles_); });
+      return *tree_;
+    }
+
+   private:
+    TriangleMesh triangles_;
+    Box bounds_;
+    mutable std::once_flag made_;
+    mutable std::shared_ptr<Mesh> tree_;
   };
-  std::vector<Part> parts;
+  std::deque<Part> parts;
 
   [[nodiscard]] bool touch(const Placed& placed) const {
-    for (const Part& part : parts) {
-      if (part.bounds.intersects(placed.bounds) &&
-          in_contact(placed.geometry, placed.T_world_shape, part.mesh.get(), Pose::Identity()))
-        return true;
-    }
-    return false;
+    return std::any_of(parts.begin(), parts.end(), [&](const Part& part) {
+      return part.bounds().intersects(placed.bounds) &&
+             in_contact(placed.geometry, placed.T_world_shape, &part.tree(), Pose::Identity());
+    });
   }
 };
 
 MeshObstacles::MeshObstacles(const std::vector<TriangleMesh>& meshes_world)
     : impl_(std::make_unique<Impl>()) {
   for (const TriangleMesh& mesh : meshes_world) {
-    if (!mesh.triangles.empty()) impl_->parts.push_back({make_mesh(mesh), mesh.bounds()});
+    if (!mesh.triangles.empty()) impl_->parts.emplace_back(mesh);
   }
 }
 MeshObstacles::~MeshObstacles() = default;

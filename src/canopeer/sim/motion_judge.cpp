@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <unordered_map>
 #include <utility>
 
 #include "canopeer/robot/arm_reach.h"
@@ -21,6 +22,8 @@ constexpr double kReach = 1.3;
 /// Cells that the scene is made of where no map says how large its voxels are.
 constexpr double kCellM = 0.01;
 
+constexpr double kChunkM = 0.2;
+
 std::vector<TriangleMesh> structure_of(const Scene& scene) {
   std::vector<TriangleMesh> found;
   for (const auto& part : scene.parts) {
@@ -29,18 +32,28 @@ std::vector<TriangleMesh> structure_of(const Scene& scene) {
   return found;
 }
 
-/// What else is in the box, copies of models too.
+/// What else is in the box, copies of models too, by the cube of `kChunkM` that triangles begin in.
+/// FCL gets to see only what is in chunks near the arm.
 std::vector<TriangleMesh> plants_in(const Scene& scene, const Box& box) {
-  std::vector<TriangleMesh> found;
-  scene.for_each_part([&](const ScenePart& part, const Pose& T, const SceneInstance* copy) {
+  std::unordered_map<BlockKey, TriangleMesh> chunks;
+  scene.for_each_part([&](const ScenePart& part, const Pose& T, const SceneInstance*) {
     if (part.static_structure() || !box.intersects(transformed(part.mesh.bounds(), T))) return;
-    if (copy == nullptr) {
-      found.push_back(part.mesh);
-    } else {
-      found.emplace_back();
-      found.back().append(part.mesh, T);
+    const Eigen::Isometry3f T_float = T.cast<float>();
+    std::vector<Vec3> corners;
+    for (const auto& v : part.mesh.vertices) corners.push_back((T_float * v).cast<double>());
+    for (const auto& t : part.mesh.triangles) {
+      Box around(corners[t[0]], corners[t[0]]);
+      around.extend(corners[t[1]]).extend(corners[t[2]]);
+      if (!box.intersects(around)) continue;
+      const VoxelIndex cube = voxel_at(corners[t[0]], kChunkM);
+      TriangleMesh& chunk = chunks[pack_block(cube.x(), cube.y(), cube.z())];
+      const auto first = static_cast<std::uint32_t>(chunk.vertices.size());
+      for (const auto corner : t) chunk.vertices.push_back(corners[corner].cast<float>());
+      chunk.triangles.push_back({first, first + 1, first + 2});
     }
   });
+  std::vector<TriangleMesh> found;
+  for (auto& [key, chunk] : chunks) found.push_back(std::move(chunk));
   return found;
 }
 

@@ -1,6 +1,10 @@
 #include "canopeer/sim/near_space.h"
 
-#include <algorithm>
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <unordered_map>
+#include <utility>
 
 #include "canopeer/base/check.h"
 #include "canopeer/robot/arm_reach.h"
@@ -58,12 +62,21 @@ NearSpace::NearSpace(const RobotModel& robot, const Scene& scene, const TrolleyS
       field_(distances_in(reach_world_, edge_m), edge_m),
       checker_(robot, trolley, hardly_padded()) {
   checker_.set_map(&field_);
-  TouchedCells touched(edge_m, reach_world_);
+  std::vector<std::pair<const TriangleMesh*, Pose>> near;
   scene.for_each_part([&](const ScenePart& part, const Pose& T, const SceneInstance*) {
-    if (reach_world_.intersects(transformed(part.mesh.bounds(), T))) touched.add(part.mesh, T);
+    if (reach_world_.intersects(transformed(part.mesh.bounds(), T)))
+      near.emplace_back(&part.mesh, T);
   });
+  tbb::enumerable_thread_specific<TouchedCells> touched(
+      [&] { return TouchedCells(edge_m, reach_world_); });
+  tbb::parallel_for(std::size_t{0}, near.size(),
+                    [&](std::size_t i) { touched.local().add(*near[i].first, near[i].second); });
+  std::unordered_map<BlockKey, VoxelMask> all;
+  for (const TouchedCells& some : touched) {
+    for (const auto& [key, cells] : some.blocks()) all[key] |= cells;
+  }
   std::vector<BlockUpdate> updates;
-  for (const auto& [key, cells] : touched.blocks()) {
+  for (const auto& [key, cells] : all) {
     updates.emplace_back();
     updates.back().key = key;
     updates.back().hit = cells;

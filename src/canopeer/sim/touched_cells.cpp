@@ -3,8 +3,8 @@
 namespace canopeer {
 namespace {
 
-/// Triangles whose boxes are no larger than this part of a cell's edge are as good as their boxes.
-constexpr double kSmall = 0.5;
+/// Triangles whose boxes are no larger than this many cells are as good as their boxes.
+constexpr double kSmall = 1.0;
 
 }  // namespace
 

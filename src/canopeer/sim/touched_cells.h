@@ -8,7 +8,7 @@
 namespace canopeer {
 
 /// The cells of a grid that surfaces touch. It errs to one side: each cell that a triangle touches
-/// is there, and some cells beside it, none farther away than half an edge.
+/// is there, and some cells beside it, none farther away than an edge along each axis.
 class TouchedCells {
  public:
   /// `edge_m`: of the grid's cells, which are a voxel map's of that resolution. Of what lies
