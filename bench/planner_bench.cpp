@@ -44,10 +44,7 @@ int main(int argc, char** argv) {
        .ours = "judge_dense_1",
        .baseline = "judge_dense_1_plain",
        .unit = "1/s"},
-      {.name = "planner.judge_stop",
-       .ours = "judge_stop",
-       .baseline = "judge_stop_plain",
-       .unit = "ms"},
+      {.name = "planner.judge_stop", .ours = "judge_stop", .unit = "ms"},
       {.name = "planner.replan_p95", .ours = "replan", .unit = "p95_ms", .counter = "p95_ms"},
       // Of it, without detecting the fruit pixels and fusing the frame.
       {.name = "planner.replan_after_fusing_p95",

@@ -103,20 +103,11 @@ void judge_stop(benchmark::State& state) {
     benchmark::DoNotOptimize(judge.judge({stop.home}, stop.trolley, &stop.map));
   }
 }
-/// What it was before: trees of triangles for FCL.
-void judge_stop_plain(benchmark::State& state) {
-  const JudgedStop& stop = dense_stop();
-  for (auto _ : state) {
-    const test::PlainJudge judge(stop.robot, stop.scene, stop.trolley);
-    benchmark::DoNotOptimize(judge.judge({stop.home}, &stop.map));
-  }
-}
 BENCHMARK(judge_scenario_1)->Unit(benchmark::kMillisecond);
 BENCHMARK(judge_scenario_1_plain)->Unit(benchmark::kMillisecond);
 BENCHMARK(judge_dense_1)->Unit(benchmark::kMillisecond);
 BENCHMARK(judge_dense_1_plain)->Unit(benchmark::kMillisecond);
 BENCHMARK(judge_stop)->Unit(benchmark::kMillisecond);
-BENCHMARK(judge_stop_plain)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace canopeer
