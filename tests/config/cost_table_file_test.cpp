@@ -11,7 +11,9 @@ namespace canopeer {
 namespace {
 
 Expected<CostTable> table_of(const std::string& text) {
-  const auto path = std::filesystem::temp_directory_path() / "canopeer_cost_table.yaml";
+  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+  const auto path = std::filesystem::temp_directory_path() /
+                    (std::string("canopeer_costs_") + test->name() + ".yaml");
   EXPECT_TRUE(write_file(path, text));
   auto table = load_cost_table(path);
   std::filesystem::remove(path);
