@@ -74,7 +74,8 @@ JudgedStop& dense_stop() {
 }
 
 void judge_all(benchmark::State& state, JudgedStop& stop) {
-  stop.judge.judge(stop.motions.front(), stop.trolley, &stop.map);  // what a stop costs once
+  // What a stop costs once.
+  static_cast<void>(stop.judge.judge(stop.motions.front(), stop.trolley, &stop.map));
   for (auto _ : state) {
     for (const auto& motion : stop.motions)
       benchmark::DoNotOptimize(stop.judge.judge(motion, stop.trolley, &stop.map));
