@@ -96,7 +96,7 @@ TEST(CameraSection, RefusesMotionThatCannotBe) {
   EXPECT_TRUE(said("latency_ms: long", "latency_ms"));
   EXPECT_TRUE(said("stamp_offset_ms: -2000", "stamp_offset_ms"));
   EXPECT_TRUE(said("sub_frames: 0", "sub_frames"));
-  EXPECT_TRUE(said("exposure_s: 0.01", "stamp_jitter_ms"));
+  EXPECT_TRUE(said("exposure_s: 0.01", "exposure_ms"));
 }
 
 TEST(CameraSection, RefusesWhatCannotBe) {
