@@ -67,8 +67,8 @@ void read_lens(YamlMap& camera, const CameraIntrinsics& k, RgbdSensorOptions& se
 /// A duration that files give in milliseconds.
 double seconds(YamlMap& map, const char* key_ms, double default_s, double least_ms,
                double most_ms) {
-  if (!map.has(key_ms)) return default_s;
-  return map.number(key_ms, 0.0, {least_ms, most_ms}) / 1000.0;
+  const double ms = map.number(key_ms, 1000.0 * default_s, {least_ms, most_ms});
+  return map.has(key_ms) ? ms / 1000.0 : default_s;
 }
 
 void read_motion(YamlMap& camera, CameraMotionOptions& o) {

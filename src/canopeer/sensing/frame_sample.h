@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "canopeer/sensing/alignment/coarse_depth.h"
+#include "canopeer/sensing/coarse_depth.h"
 #include "canopeer/sensing/pose_track.h"
 #include "canopeer/sensing/rgbd_frame.h"
 

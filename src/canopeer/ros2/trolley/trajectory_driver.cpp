@@ -85,7 +85,7 @@ class TrajectoryDriver : public TrolleyDriver {
 
 Expected<double> TrajectoryDriver::start(const TrolleyState& goal, double max_travel_m_s) {
   if (axes_.empty()) return fail("the robot's URDF has no axes for it");
-  if (auto ok = parts_.alive(max_silence_s_); !ok) return ok;
+  if (auto ok = parts_.alive(max_silence_s_); !ok) return tl::unexpected(ok.error());
   const Configuration from = positions(parts_.sense.now());
   const PathMotion motion(std::vector<Configuration>{from, positions(goal)},
                           limits_for(max_travel_m_s));

@@ -1,4 +1,4 @@
-#include "canopeer/sensing/alignment/coarse_depth.h"
+#include "canopeer/sensing/coarse_depth.h"
 
 #include <algorithm>
 
