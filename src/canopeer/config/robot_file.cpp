@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <numbers>
+#include <string_view>
 
 #include "canopeer/config/shapeless_links.h"
 #include "canopeer/config/srdf.h"
@@ -144,9 +145,11 @@ void set_travel_limits(const RobotFile& file, RobotDescription& robot) {
   }
 }
 
+constexpr std::string_view kMounted = "_as_mounted";
+
 /// Hangs a frame of the camera's own on the frame the URDF has for it.
 void mount_camera(const Pose& T_frame_camera, RobotDescription& robot, RobotSetup& setup) {
-  const std::string mounted = setup.camera_frame + "_as_mounted";
+  const std::string mounted = setup.camera_frame + std::string(kMounted);
   Joint joint;
   joint.name = mounted + "_joint";
   joint.parent = setup.camera_frame;
@@ -210,6 +213,14 @@ Expected<RobotModel> load_robot(const std::filesystem::path& path,
   if (!model) return fail_in(path.string(), model.error());
   if (auto reach = check_reach(*model); !reach) return fail_in(path.string(), reach.error());
   return model;
+}
+
+Pose camera_mounting(const RobotModel& robot) {
+  const std::string& frame = robot.setup().camera_frame;
+  for (const Joint& joint : robot.description().joints) {
+    if (joint.child == frame && frame.ends_with(kMounted)) return joint.T_parent_joint;
+  }
+  return Pose::Identity();
 }
 
 }  // namespace canopeer

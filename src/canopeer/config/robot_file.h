@@ -21,6 +21,9 @@ namespace canopeer {
     const std::filesystem::path& path, const std::optional<Pose>& T_frame_camera = {},
     const std::vector<std::filesystem::path>& package_path = {});
 
+/// Where load_robot() mounted the camera of this robot on the URDF's camera frame.
+[[nodiscard]] Pose camera_mounting(const RobotModel& robot);
+
 /// The URDF that a robot.yaml names. Errors as above.
 [[nodiscard]] Expected<std::filesystem::path> robot_urdf(const std::filesystem::path& path);
 

@@ -15,6 +15,7 @@
 #include "canopeer/planner/plan_sketch.h"
 #include "canopeer/record/run_record.h"
 #include "canopeer/robot/joint_path.h"
+#include "canopeer/sensing/camera_twist.h"
 #include "canopeer/sensing/rgbd_frame.h"
 
 // What a mission says while it works: values, safe to keep and to pass to other threads. What is
@@ -54,6 +55,7 @@ struct FrameTaken {
 /// after several of them.
 struct FrameOnTheWay {
   FrameEvent frame;
+  CameraTwist twist{};                         ///< then
   std::shared_ptr<const RgbdFrame> images;     ///< with pose and time; the robot masked out
   std::shared_ptr<const Detection> detection;  ///< fruit pixels, of the frame's size
 };

@@ -55,11 +55,16 @@ void for_each_field(AnySummary& summary, Visit&& visit) {
   visit("frames_late", summary.frames_late);
   visit("frames_blurred", summary.frames_blurred);
   visit("frames_alike", summary.frames_alike);
+  visit("frames_unread", summary.frames_unread);
   visit("joint_path_length_rad", summary.joint_path_length_rad);
   visit("motion_time_s", summary.motion_time_s);
   visit("planning_time_s", summary.planning_time_s);
   visit("collisions", summary.collisions);
   visit("plant_contacts", summary.plant_contacts);
+  visit("time_offset_s", summary.time_offset_s);
+  visit("time_offset_se_s", summary.time_offset_se_s);
+  visit("hand_eye_translation_m", summary.hand_eye_translation_m);
+  visit("hand_eye_rotation_rad", summary.hand_eye_rotation_rad);
 }
 
 template <typename T>
@@ -121,6 +126,7 @@ void add_up_motions(const RunRecord& record, RunScores& scores) {
     count(scores.frames_late, motion.frames->late);
     count(scores.frames_blurred, motion.frames->blurred);
     count(scores.frames_alike, motion.frames->alike);
+    count(scores.frames_unread, motion.frames->unread);
   }
   for (const ViewEvent& view : record.views) scores.planning_time_s += view.planning_s;
 }

@@ -52,6 +52,7 @@ struct RunScores {
   std::optional<int> frames_late;     ///< perception was busy
   std::optional<int> frames_blurred;  ///< more than the mission allows
   std::optional<int> frames_alike;    ///< the camera had hardly moved
+  std::optional<int> frames_unread;   ///< their images could not be read
 
   double joint_path_length_rad = 0.0;  ///< Σ|Δq| of all motions
   double motion_time_s = 0.0;          ///< of all motions, transitions included
@@ -78,6 +79,12 @@ struct Summary : RunScores {
   int views = 0;
   std::int64_t roi_voxels = 0;  ///< distinct ROI voxels in the map at the end
   int fruits_reported = 0;      ///< rows of fruits.csv
+  // How far pose and image disagree; null where no frames were taken on the way, or they do not
+  // tell it.
+  std::optional<double> time_offset_s;     ///< added to stamps of frames gives the poses' clock
+  std::optional<double> time_offset_se_s;  ///< standard error of it
+  std::optional<double> hand_eye_translation_m;  ///< of the camera beside its said place
+  std::optional<double> hand_eye_rotation_rad;
 };
 
 /// What the record alone tells: all but the scores against the truth, and the wall time.

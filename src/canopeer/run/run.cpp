@@ -3,12 +3,15 @@
 #include <oneapi/tbb/global_control.h>
 
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <utility>
 
 #include "canopeer/base/check.h"
+#include "canopeer/config/robot_file.h"
 #include "canopeer/mission/record_keeper.h"
 #include "canopeer/mission/steering_desk.h"
+#include "canopeer/run/frame_check.h"
 #include "canopeer/run/run_results.h"
 
 namespace canopeer {
@@ -58,6 +61,19 @@ struct Run::State {
     site.results_in(out);
     if (auto watcher = site.watcher()) mission.watch(std::move(watcher), {.name = "the site"});
     if (Steering* const steering = site.steering()) steer(*steering);
+    if (stage->file().mission.on_the_way.hz > 0.0) mission.keep(frame_check.emplace());
+  }
+
+  /// Whether pose and image agree; said aloud where they do not.
+  std::optional<FrameAgreement> check_frames() const {
+    auto agreement = frame_check ? frame_check->judge() : std::nullopt;
+    if (agreement && agreement->wrong() && on_message) {
+      const auto& ros2 = stage->file().ros2;
+      on_message("notice: " +
+                 agreement_text(*agreement, {camera_mounting(stage->robot().model),
+                                             ros2 ? ros2->camera.time_offset_s : 0.0}));
+    }
+    return agreement;
   }
 
   void steer(Steering& steering) {
@@ -71,7 +87,9 @@ struct Run::State {
   std::unique_ptr<Stage> stage;
   RunHeader header;
   fs::path out;
+  std::function<void(const std::string& text)> on_message;
   std::optional<RecordKeeper> record;
+  std::optional<FrameCheck> frame_check;
   SteeringTogether together;  // outlives the mission
   bool steered = false;
   Mission mission;
@@ -104,6 +122,7 @@ Expected<std::unique_ptr<Run>> Run::compose(MissionFile file, const StageRequest
   fs::create_directories(state->out, code);
   if (code) return fail(state->out.string() + ": cannot make the directory: " + code.message());
   state->begun = begun;
+  state->on_message = request.callbacks.on_message;
   state->threads = std::move(threads);
   return std::unique_ptr<Run>(new Run(std::move(state)));
 }
@@ -154,6 +173,9 @@ Expected<void> Run::resume(RunState state) {
   }
   if (auto ok = s.stage->site().restore(state.site); !ok) return fail_in("site", ok.error());
   if (auto ok = s.mission.check(state.mission); !ok) return ok;
+  if (s.frame_check) {
+    if (auto ok = s.frame_check->restore(state.frame_check); !ok) return ok;
+  }
   auto keeper = RecordKeeper::resume(s.out, s.header, state.record_bytes);
   if (!keeper) return tl::unexpected(keeper.error());
   s.record.emplace(std::move(*keeper));
@@ -177,8 +199,10 @@ Expected<Summary> Run::finish() {
   s.phase = State::Phase::ended;
   s.stage->site().end_motion();
   if (auto ended = s.mission.end(); !ended && s.outcome) s.outcome = std::move(ended);
+  const auto agreement = s.check_frames();
   const std::chrono::duration<double> wall = SteadyClock::now() - s.begun;
-  return write_results(s.out, s.record->record(), s.mission, s.stage->site().truth(), wall.count());
+  return write_results(s.out, s.record->record(), s.mission, s.stage->site().truth(), agreement,
+                       wall.count());
 }
 
 Expected<RunState> Run::state() const {
@@ -188,7 +212,8 @@ Expected<RunState> Run::state() const {
   if (!mission) return tl::unexpected(mission.error());
   auto site = s.stage->site().save();
   if (!site) return fail_in("site", site.error());
-  return RunState{identity(s.header), std::move(*mission), std::move(*site), s.record->bytes()};
+  return RunState{identity(s.header), std::move(*mission), std::move(*site), s.record->bytes(),
+                  s.frame_check ? s.frame_check->save() : std::string()};
 }
 
 }  // namespace canopeer

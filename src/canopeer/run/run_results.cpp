@@ -65,10 +65,24 @@ void write_truth(const fs::path& out, const Scene& truth, Writing& write) {
   write(write_png(out / "pictures" / "01_row.png", render_overview(truth, 960, 540)));
 }
 
+/// Only what the frames do tell.
+void add_agreement(const FrameAgreement& agreement, Summary& summary) {
+  if (agreement.time_known()) {
+    summary.time_offset_s = agreement.estimate->time_offset_s;
+    summary.time_offset_se_s = agreement.estimate->time_offset_se_s;
+  }
+  if (agreement.mounting_known()) {
+    summary.hand_eye_translation_m = agreement.estimate->translation_m;
+    summary.hand_eye_rotation_rad = agreement.estimate->rotation_rad;
+  }
+}
+
 }  // namespace
 
 Expected<Summary> write_results(const fs::path& out, const RunRecord& record,
-                                const Mission& mission, const Scene* truth, double wall_time_s) {
+                                const Mission& mission, const Scene* truth,
+                                const std::optional<FrameAgreement>& agreement,
+                                double wall_time_s) {
   Writing write;
   write_findings(out, record, mission, write);
   Summary summary = summary_of(record);
@@ -78,6 +92,7 @@ Expected<Summary> write_results(const fs::path& out, const RunRecord& record,
     write_truth(out, *truth, write);
     static_cast<RunScores&>(summary) = scores_of(record, mission, *truth);
   }
+  if (agreement) add_agreement(*agreement, summary);
   summary.wall_time_s = wall_time_s;
   write(write_summary(out / "summary.json", summary));
   write(write_report(out));

@@ -43,8 +43,8 @@ Expected<std::string> unpacked(std::string_view file) {
 }  // namespace
 
 Expected<void> write_run_state(const std::filesystem::path& path, const RunState& state) {
-  const std::string bytes =
-      state_bytes(state.run, mission_state_bytes(state.mission), state.site, state.record_bytes);
+  const std::string bytes = state_bytes(state.run, mission_state_bytes(state.mission), state.site,
+                                        state.record_bytes, state.frame_check);
   std::string packed(ZSTD_compressBound(bytes.size()), '\0');
   const std::size_t size =
       ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), kLevel);
@@ -66,12 +66,15 @@ Expected<RunState> read_run_state(const std::filesystem::path& path,
   std::string mission_bytes;
   std::string site;
   std::uint64_t record_bytes = 0;
-  if (auto ok = read_state_bytes(*bytes, run, mission_bytes, site, record_bytes); !ok) {
+  std::string frame_check;
+  if (auto ok = read_state_bytes(*bytes, run, mission_bytes, site, record_bytes, frame_check);
+      !ok) {
     return fail_in(path.string(), ok.error());
   }
   auto mission = parse_mission_state(mission_bytes, options);
   if (!mission) return fail_in(path.string(), mission.error());
-  return RunState{std::move(run), std::move(*mission), std::move(site), record_bytes};
+  return RunState{std::move(run), std::move(*mission), std::move(site), record_bytes,
+                  std::move(frame_check)};
 }
 
 }  // namespace canopeer

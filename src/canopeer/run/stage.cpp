@@ -114,7 +114,6 @@ Expected<std::unique_ptr<Stage>> Stage::make(MissionFile file, const StageReques
   if (mission.clock == MissionClock::whole) {
     mission.mission_time_s = whole_mission_time_s(*robot, mission);
   }
-  // After that: every planner has the time of the mission as it is written.
   if (registries.planners.order_of(mission.planner) == SegmentOrder::along_row) {
     mission.segments = segments_along_row(mission.segments, mission.segment_time_s);
   }

@@ -89,18 +89,17 @@ class Comparison {
     }
   }
 
-  /// The sums of each pair, or of every so many.
+  /// The sums of each pair, or of every so many; of one without poses: nothing.
   [[nodiscard]] std::vector<HandEyeSums> sums(const Assumption& assumed, double gate_m,
                                               std::size_t every = 1) const {
-    constexpr std::size_t kPatchesOfPair = 1500;
     const auto at = poses(assumed.time_offset_s);
     std::vector<HandEyeSums> sums;
     for (std::size_t i = 0; i < pairs_.size(); i += every) {
       const auto [a, b] = pairs_[i];
+      sums.emplace_back();
       if (!at[a] || !at[b]) continue;
-      const auto stride = static_cast<int>(1 + patches_[a].all().size() / kPatchesOfPair);
-      sums.push_back(disagreement(patches_[a], *at[a], patches_[b], *at[b], assumed.T_said_true,
-                                  gate_m, stride));
+      sums.back() = disagreement(patches_[a], *at[a], patches_[b], *at[b], assumed.T_said_true,
+                                 gate_m, stride_of(a));
     }
     return sums;
   }
@@ -112,14 +111,20 @@ class Comparison {
     for (const auto& [a, b] : pairs_) {
       if (!at[a] || !at[b]) continue;
       add_distances(patches_[a], *at[a], patches_[b], *at[b], assumed.T_said_true, kShownGate_m,
-                    &distances[a]);
+                    stride_of(a), &distances[a]);
     }
     return distances;
   }
 
   [[nodiscard]] const std::vector<Pair>& pairs() const { return pairs_; }
+  [[nodiscard]] std::size_t frames() const { return frames_.size(); }
 
  private:
+  /// So that a pair has about as many patches as wanted.
+  [[nodiscard]] int stride_of(std::size_t frame) const {
+    return 1 + static_cast<int>(patches_[frame].all().size()) / options_.patches;
+  }
+
   const std::vector<HandEyeFrame>& frames_;
   const CameraPoseAt& pose_at_;
   const HandEyeOptions& options_;
@@ -184,9 +189,14 @@ double best_time(const Comparison& comparison, double max_offset_s) {
   return best_s;
 }
 
-/// Gauss–Newton steps under ever narrower gates.
-Assumption fit(const Comparison& comparison, Assumption assumed, double max_offset_s) {
-  for (const double gate_m : kGates_m) {
+/// What is sought; the rest stays as it is assumed.
+enum class Sought { all, mounting, time };
+
+/// Gauss–Newton steps under ever narrower gates, from the given one on.
+Assumption fit(const Comparison& comparison, Assumption assumed, double max_offset_s,
+               std::size_t first_gate, Sought sought = Sought::all) {
+  for (std::size_t g = first_gate; g < kGates_m.size(); ++g) {
+    const double gate_m = kGates_m[g];
     const double small_step = gate_m == kGates_m.back() ? 2e-5 : 5e-4;
     for (int i = 0; i < kStepsPerGate; ++i) {
       HandEyeMatrix matrix = prior_matrix();
@@ -195,7 +205,14 @@ Assumption fit(const Comparison& comparison, Assumption assumed, double max_offs
         matrix += pair.matrix;
         gradient += pair.gradient;
       }
-      const HandEyeVector step = -matrix.ldlt().solve(gradient);
+      HandEyeVector step = HandEyeVector::Zero();
+      if (sought == Sought::time) {
+        step[6] = -gradient[6] / matrix(6, 6);
+      } else if (sought == Sought::mounting) {
+        step.head<6>() = -matrix.topLeftCorner<6, 6>().ldlt().solve(gradient.head<6>());
+      } else {
+        step = -matrix.ldlt().solve(gradient);
+      }
       assumed = moved(assumed, step, max_offset_s);
       if (step.norm() < small_step) break;
     }
@@ -203,14 +220,33 @@ Assumption fit(const Comparison& comparison, Assumption assumed, double max_offs
   return assumed;
 }
 
-/// Covariance of what was found. Points of a pair err alike, so that pairs are counted, not points.
-HandEyeMatrix covariance(const std::vector<HandEyeSums>& sums) {
-  HandEyeMatrix matrix = prior_matrix(), spread = prior_matrix();
-  for (const HandEyeSums& pair : sums) {
-    matrix += pair.matrix;
-    spread += pair.gradient * pair.gradient.transpose();
+/// Of fits from far and from near the one under which more agrees: leaves all look alike, and from
+/// afar some meet others.
+Assumption best_fit(const Comparison& comparison, double max_offset_s) {
+  constexpr std::size_t kNarrow = 3;
+  const double start_s = best_time(comparison, max_offset_s);
+  const Assumption far = fit(comparison, {Pose::Identity(), start_s}, max_offset_s, 0);
+  const Assumption near = fit(comparison, {}, max_offset_s, kNarrow);
+  const auto cost = [&](const Assumption& assumed) {
+    return mean_cost(comparison.sums(assumed, kGates_m[kNarrow]));
+  };
+  return cost(near) <= cost(far) ? near : far;
+}
+
+/// Covariance of what was found (Huber's sandwich). Points of a pair err alike, and so do pairs
+/// that share a frame: frames are counted.
+HandEyeMatrix covariance(const Comparison& comparison, const std::vector<HandEyeSums>& sums) {
+  HandEyeMatrix curvature = prior_matrix(), spread = prior_matrix();
+  std::vector<HandEyeVector> of_frame(comparison.frames(), HandEyeVector::Zero());
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    curvature += sums[i].curvature;
+    of_frame[comparison.pairs()[i].a] += sums[i].gradient;
+    of_frame[comparison.pairs()[i].b] += sums[i].gradient;
   }
-  const HandEyeMatrix inverse = matrix.inverse();
+  for (const HandEyeVector& gradient : of_frame) spread += gradient * gradient.transpose();
+  const Eigen::LLT<HandEyeMatrix> factors(curvature);
+  if (factors.info() != Eigen::Success) return prior_matrix().inverse();  // it tells nothing
+  const HandEyeMatrix inverse = factors.solve(HandEyeMatrix::Identity());
   return inverse * spread * inverse;
 }
 
@@ -224,6 +260,24 @@ double median(std::vector<float>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return static_cast<double>(*middle);
+}
+
+/// How far apart surfaces lie that should be one, in the middle.
+double median_distance(const Comparison& comparison, const Assumption& assumed) {
+  std::vector<float> all;
+  for (const auto& frame : comparison.distances(assumed)) {
+    all.insert(all.end(), frame.begin(), frame.end());
+  }
+  return median(all);
+}
+
+/// Whether frames agree clearly better with all that was found than with the best of one kind
+/// alone: leaves move a fit by more than its standard error where few surfaces meet.
+bool explains(const Comparison& comparison, double after_m, Sought alone, double max_offset_s) {
+  constexpr std::size_t kGate = 1;
+  constexpr double kShare = 0.93;
+  const Assumption other = fit(comparison, {}, max_offset_s, kGate, alone);
+  return after_m < kShare * median_distance(comparison, other);
 }
 
 void tell_residuals(const Comparison& comparison, const Assumption& found,
@@ -254,31 +308,36 @@ Expected<HandEyeEstimate> estimate_hand_eye(const std::vector<HandEyeFrame>& fra
         "the frames have too little surface in common: take more of them, closer together, "
         "of something with flat parts 0.3 to 1.5 m away");
   }
-  const double start_s = best_time(comparison, options.max_time_offset_s);
-  const Assumption found = fit(comparison, {Pose::Identity(), start_s}, options.max_time_offset_s);
+  const Assumption found = best_fit(comparison, options.max_time_offset_s);
 
   HandEyeEstimate estimate;
   estimate.T_said_true = found.T_said_true;
   estimate.time_offset_s = found.time_offset_s;
   estimate.translation_m = found.T_said_true.translation().norm();
   estimate.rotation_rad = Eigen::AngleAxisd(Eigen::Matrix3d(found.T_said_true.linear())).angle();
-  const HandEyeMatrix errors = covariance(comparison.sums(found, kGates_m.back()));
+  const HandEyeMatrix errors = covariance(comparison, comparison.sums(found, kGates_m.back()));
   estimate.translation_se_m = largest_error(errors.topLeftCorner<3, 3>());
   estimate.rotation_se_rad = largest_error(errors.block<3, 3>(3, 3));
   estimate.time_offset_se_s = std::sqrt(errors(6, 6));
   estimate.hand_eye_known = estimate.translation_se_m < kKnown * kPrior_m &&
                             estimate.rotation_se_rad < kKnown * kPrior_rad;
   estimate.time_known = estimate.time_offset_se_s < kKnown * kPrior_s;
+  tell_residuals(comparison, found, &estimate);
   const auto wrong = [](double error, double standard_error, double worth) {
     return error > std::max(worth, 3.0 * standard_error);
+  };
+  const auto needed_beside = [&](Sought alone) {
+    return explains(comparison, estimate.all.after_m, alone, options.max_time_offset_s);
   };
   estimate.hand_eye_wrong =
       estimate.hand_eye_known &&
       (wrong(estimate.translation_m, estimate.translation_se_m, options.worth_m) ||
-       wrong(estimate.rotation_rad, estimate.rotation_se_rad, options.worth_rad));
-  estimate.time_wrong = estimate.time_known && wrong(std::abs(estimate.time_offset_s),
-                                                     estimate.time_offset_se_s, options.worth_s);
-  tell_residuals(comparison, found, &estimate);
+       wrong(estimate.rotation_rad, estimate.rotation_se_rad, options.worth_rad)) &&
+      needed_beside(Sought::time);
+  estimate.time_wrong =
+      estimate.time_known &&
+      wrong(std::abs(estimate.time_offset_s), estimate.time_offset_se_s, options.worth_s) &&
+      needed_beside(Sought::mounting);
   return estimate;
 }
 

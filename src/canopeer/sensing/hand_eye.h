@@ -24,6 +24,7 @@ using CameraPoseAt = std::function<std::optional<Pose>(double time_s)>;
 struct HandEyeOptions {
   double max_time_offset_s = 0.15;  ///< either way
   int max_pairs = 250;              ///< of frames that are compared
+  int patches = 1500;               ///< of surface in each pair, about
   /// What is worth changing: a smaller error is none.
   double worth_m = 0.003;
   double worth_rad = 0.005;
@@ -31,7 +32,8 @@ struct HandEyeOptions {
 };
 
 /// How frames disagree, and what would make them agree. An error within three standard errors, or
-/// smaller than what is worth changing, is not called wrong.
+/// smaller than what is worth changing, is not called wrong; nor is one without which, the other
+/// corrected, surfaces lie nearly as close.
 struct HandEyeEstimate {
   Pose T_said_true = Pose::Identity();  ///< from the calibrated camera frame to where it is
   double translation_m = 0.0;           ///< of that

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
+#include <utility>
 
 #include "canopeer/report/html_parts.h"
 #include "canopeer/report/html_text.h"
@@ -65,6 +67,23 @@ std::string interventions(const RunRecord& record) {
   return html;
 }
 
+/// How far pose and image disagree, as far as frames on the way tell.
+std::vector<std::pair<std::string, std::string>> agreement_figures(const Summary& s) {
+  std::vector<std::pair<std::string, std::string>> figures;
+  if (s.time_offset_s && s.time_offset_se_s) {
+    figures.emplace_back(
+        "Stamps of frames off by, as the frames show",
+        fmt::format("{:.1f} ms (± {:.1f})", -1e3 * *s.time_offset_s, 3e3 * *s.time_offset_se_s));
+  }
+  if (s.hand_eye_translation_m && s.hand_eye_rotation_rad) {
+    constexpr double kDegree = std::numbers::pi / 180.0;
+    figures.emplace_back("Camera beside its said place by",
+                         fmt::format("{:.1f} mm, {:.2f}°", 1e3 * *s.hand_eye_translation_m,
+                                     *s.hand_eye_rotation_rad / kDegree));
+  }
+  return figures;
+}
+
 }  // namespace
 
 std::string headline_section(const ReportData& data) {
@@ -101,7 +120,7 @@ std::string figures_section(const ReportData& data) {
   const auto count = [](const std::optional<int>& n) {
     return n ? std::to_string(*n) : std::string("–");
   };
-  const std::vector<std::pair<std::string, std::string>> figures = {
+  std::vector<std::pair<std::string, std::string>> figures = {
       {"50 % of the fruits found after", seconds(s.time_to_50pct_s)},
       {"80 % after", seconds(s.time_to_80pct_s)},
       {"90 % after", seconds(s.time_to_90pct_s)},
@@ -121,6 +140,7 @@ std::string figures_section(const ReportData& data) {
       {"Joint path length", fmt::format("{:.1f} rad", s.joint_path_length_rad)},
       {"Arm and trolley moving", duration_text(s.motion_time_s)},
       {"Standing still to map and plan", duration_text(s.planning_time_s)}};
+  for (auto& figure : agreement_figures(s)) figures.push_back(std::move(figure));
   std::string html = "<dl>\n";
   for (const auto& [name, value] : figures) {
     html += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, value);

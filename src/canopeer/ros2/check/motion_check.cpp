@@ -6,11 +6,13 @@
 #include <stop_token>
 #include <thread>
 
+#include "canopeer/config/robot_file.h"
 #include "canopeer/map/distance_field.h"
 #include "canopeer/map/fusion.h"
 #include "canopeer/robot/self_filter.h"
 #include "canopeer/ros2/check/look_around.h"
 #include "canopeer/ros2/time/figure.h"
+#include "canopeer/sensing/frame_agreement.h"
 
 namespace canopeer::ros {
 namespace {
@@ -145,15 +147,6 @@ std::vector<Configuration> round_trip(const CollisionChecker& checker, const Con
   return stops;
 }
 
-/// What a robot file says as camera_mounting (config/robot_file makes a link of it).
-Pose mounting_of(const RobotModel& robot) {
-  const std::string& frame = robot.setup().camera_frame;
-  for (const Joint& joint : robot.description().joints) {
-    if (joint.child == frame && frame.ends_with("_as_mounted")) return joint.T_parent_joint;
-  }
-  return Pose::Identity();
-}
-
 std::string pose_residuals(const HandEyeEstimate& estimate, std::size_t still) {
   std::string text;
   for (std::size_t i = 0; i < std::min(still, estimate.frames.size()); ++i) {
@@ -163,18 +156,6 @@ std::string pose_residuals(const HandEyeEstimate& estimate, std::size_t still) {
                                                            figure(1e3 * frame.after_m, 1));
   }
   return text;
-}
-
-std::string numbers_text(Vec3 v, int decimals) {
-  v += Vec3::Zero();  // no -0
-  return "[" + figure(v.x(), decimals) + ", " + figure(v.y(), decimals) + ", " +
-         figure(v.z(), decimals) + "]";
-}
-
-/// About fixed x, y, z, as robot files have it.
-Vec3 fixed_angles_deg(const Eigen::Matrix3d& R) {
-  const double pitch = std::asin(std::clamp(-R(2, 0), -1.0, 1.0));
-  return kDegrees * Vec3(std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0)));
 }
 
 }  // namespace
@@ -191,10 +172,7 @@ void tell_hand_eye(const HandEyeEstimate& estimate, const AssumedCamera& assumed
                     "the frames do not tell it: the camera could not turn about two "
                     "axes, or sees too little; start elsewhere");
   } else if (estimate.hand_eye_wrong) {
-    const Pose T_frame_camera = assumed.T_frame_camera * estimate.T_said_true;
-    const std::string numbers =
-        "{xyz_m: " + numbers_text(T_frame_camera.translation(), 4) +
-        ", rpy_deg: " + numbers_text(fixed_angles_deg(T_frame_camera.linear()), 2) + "}";
+    const std::string numbers = mounting_text(assumed.T_frame_camera * estimate.T_said_true);
     findings.wrong("hand-eye",
                    "the camera sits " + mounting + " beside its calibrated place; " +
                        (assumed.pose_from_tf ? "move its optical frame in tf by " + numbers
@@ -267,7 +245,7 @@ void check_by_moving(CheckBench& bench, int most_looks, Findings& findings) {
   if (!estimate) return findings.notice("hand-eye", estimate.error().message);
   const bool from_tf = bench.settings.camera.pose == "tf";
   tell_hand_eye(*estimate,
-                {from_tf ? Pose::Identity() : mounting_of(bench.robot),
+                {from_tf ? Pose::Identity() : camera_mounting(bench.robot),
                  bench.settings.camera.time_offset_s, from_tf, frames.still.size()},
                 findings);
 }

@@ -82,7 +82,9 @@ HandEyeSums disagreement(const SurfacePatches& a, const SoughtPose& at_a, const 
     row.segment<3>(3) = p.cross(n_in_a) - y.cross(n);
     row[6] = n_in_a.dot(twist_a.turning.cross(p) + twist_a.velocity) -
              n.dot(twist_b.turning.cross(y) + twist_b.velocity);
-    sums.matrix.noalias() += weight * row * row.transpose();
+    const HandEyeMatrix square = row * row.transpose();
+    sums.matrix += weight * square;
+    sums.curvature += rest * (1.0 - 5.0 * share * share) / (noise * noise) * square;
     sums.gradient += weight * r * row;
     sums.cost += 1.0 - rest * rest * rest;
     ++sums.points;
@@ -91,10 +93,11 @@ HandEyeSums disagreement(const SurfacePatches& a, const SoughtPose& at_a, const 
 }
 
 void add_distances(const SurfacePatches& a, const SoughtPose& at_a, const SurfacePatches& b,
-                   const SoughtPose& at_b, const Pose& T_said_true, double gate_m,
+                   const SoughtPose& at_b, const Pose& T_said_true, double gate_m, int stride,
                    std::vector<float>* distances) {
   const Eigen::Isometry3f T_b_a = between(at_a, at_b, T_said_true).cast<float>();
-  for (const SurfacePatch& from : a.all()) {
+  for (std::size_t i = 0; i < a.all().size(); i += static_cast<std::size_t>(stride)) {
+    const SurfacePatch& from = a.all()[i];
     bool sought = false;
     const auto met = meet(from, b, T_b_a, static_cast<float>(gate_m), &sought);
     if (met) distances->push_back(std::abs(met->distance));

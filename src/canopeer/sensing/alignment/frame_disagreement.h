@@ -23,6 +23,9 @@ using HandEyeMatrix = Eigen::Matrix<double, 7, 7>;
 struct HandEyeSums {
   HandEyeMatrix matrix = HandEyeMatrix::Zero();
   HandEyeVector gradient = HandEyeVector::Zero();
+  /// How the gradient really changes: less than by `matrix`, where points that are none of the same
+  /// surface lie within the gate; not at all, where all are such.
+  HandEyeMatrix curvature = HandEyeMatrix::Zero();
   double cost = 0.0;  ///< robust, per point sought
   int points = 0;     ///< that met a surface
   int sought = 0;     ///< that lay in the other's view
@@ -37,7 +40,7 @@ struct HandEyeSums {
 
 /// The distances themselves, m.
 void add_distances(const SurfacePatches& a, const SoughtPose& at_a, const SurfacePatches& b,
-                   const SoughtPose& at_b, const Pose& T_said_true, double gate_m,
+                   const SoughtPose& at_b, const Pose& T_said_true, double gate_m, int stride,
                    std::vector<float>* distances);
 
 }  // namespace canopeer
