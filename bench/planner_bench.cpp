@@ -1,5 +1,5 @@
-// The planner's kernels on one thread, in front of Scenario 1: planner_search_bench.cpp and
-// planner_graph_bench.cpp.
+// The planner's kernels on one thread, in front of Scenario 1: planner_search_bench.cpp,
+// planner_graph_bench.cpp and planner_judge_bench.cpp.
 
 #include <vector>
 
@@ -35,6 +35,19 @@ int main(int argc, char** argv) {
        .unit = "edges",
        .counter = "degree",
        .more_is_better = true},
+      // Motions a second that the simulation judges, beside FCL on each of their states.
+      {.name = "planner.judge_scenario_1",
+       .ours = "judge_scenario_1",
+       .baseline = "judge_scenario_1_plain",
+       .unit = "1/s"},
+      {.name = "planner.judge_dense_1",
+       .ours = "judge_dense_1",
+       .baseline = "judge_dense_1_plain",
+       .unit = "1/s"},
+      {.name = "planner.judge_stop",
+       .ours = "judge_stop",
+       .baseline = "judge_stop_plain",
+       .unit = "ms"},
       {.name = "planner.replan_p95", .ours = "replan", .unit = "p95_ms", .counter = "p95_ms"},
       // Of it, without detecting the fruit pixels and fusing the frame.
       {.name = "planner.replan_after_fusing_p95",

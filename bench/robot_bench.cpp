@@ -258,6 +258,8 @@ void view_poses(benchmark::State& state) {
 }
 BENCHMARK(view_poses);
 
+ImageMotionLimit sharp_limit() { return {CameraIntrinsics(), 0.5, 2.0 / 0.005}; }
+
 void path_timing(benchmark::State& state) {
   const RobotModel& robot = ur5e().robot;
   const auto qs = random_configurations(robot, 1024);
@@ -271,6 +273,34 @@ void path_timing(benchmark::State& state) {
   }
 }
 BENCHMARK(path_timing);
+
+/// The same motions, no more than 2 px of blur in 5 ms at half a metre.
+void timing_sharp(benchmark::State& state) {
+  const RobotModel& robot = ur5e().robot;
+  const auto qs = random_configurations(robot, 1024);
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const auto from = qs.begin() + static_cast<std::ptrdiff_t>(i++ % 1000);
+    const JointPath path{{from, from + 5}, std::vector<double>(5, 0.05), sharp_limit()};
+    benchmark::DoNotOptimize(PathMotion(path, robot).duration_s());
+  }
+}
+BENCHMARK(timing_sharp);
+
+/// What the straight motion between two views of the graph takes, by the joints or sharp.
+void edge_time_of(benchmark::State& state, const std::optional<ImageMotionLimit>& sharp) {
+  const Glasshouse& world = ur5e();
+  const auto edges = world.proposed_edges(300, 3);
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const auto& [from, to] = edges[i++ % edges.size()];
+    benchmark::DoNotOptimize(straight_motion_time(from, to, world.robot, sharp));
+  }
+}
+void edge_time(benchmark::State& state) { edge_time_of(state, std::nullopt); }
+BENCHMARK(edge_time);
+void edge_time_sharp(benchmark::State& state) { edge_time_of(state, sharp_limit()); }
+BENCHMARK(edge_time_sharp);
 
 }  // namespace
 }  // namespace canopeer
@@ -305,5 +335,13 @@ int main(int argc, char** argv) {
         .counter = "median_us"},
        {.name = "robot.edge", .ours = "edge", .unit = "1/s", .stated = 500.0},
        {.name = "robot.view_poses", .ours = "view_poses", .unit = "1/s", .stated = 46.0},
-       {.name = "robot.path_timing", .ours = "path_timing", .unit = "us"}});
+       {.name = "robot.path_timing", .ours = "path_timing", .unit = "us"},
+       {.name = "robot.timing_sharp",
+        .ours = "timing_sharp",
+        .baseline = "path_timing",
+        .unit = "us"},
+       {.name = "robot.edge_time_sharp",
+        .ours = "edge_time_sharp",
+        .baseline = "edge_time",
+        .unit = "us"}});
 }

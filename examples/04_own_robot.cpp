@@ -21,7 +21,7 @@ class OwnRobot : public Site, Arm, Camera, Trolley, Clock {
   // Arm: follow the path just as it is, since just this path was checked for collisions.
   Configuration configuration() const override { return q_; }
   Expected<double> start(const JointPath& path) override {
-    motion_.emplace(path, robot_.limits());
+    motion_.emplace(path, robot_);
     return motion_->duration_s();
   }
   Expected<MotionOutcome> finish() override {

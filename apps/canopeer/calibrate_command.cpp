@@ -43,10 +43,10 @@ void calibrate(const CalibrateArguments& arguments) {
   const auto stage = value_or_stop(Stage::make(request, *mission.registries), kBadInput);
   const MissionFile& file = stage->file();
   const RobotKit robot = stage->robot();
-  const auto detector =
-      value_or_stop(mission.registries->detectors.make(file.mission.detector), kBadInput);
+  const DetectorRegistry& detectors = mission.registries->detectors;
+  static_cast<void>(value_or_stop(detectors.make(file.mission.detector), kBadInput));
   const CostTable costs =
-      measure_costs(robot.model, robot.ik, *stage->site().truth(), file.mission, *detector,
+      measure_costs(robot.model, robot.ik, *stage->site().truth(), file.mission, detectors,
                     file.simulation, [&](std::string_view what) {
                       if (!arguments.quiet) {
                         std::printf("measuring %.*s\n", static_cast<int>(what.size()), what.data());

@@ -60,6 +60,45 @@ TEST(CameraSection, EveryFaultCanBeSetAlone) {
   EXPECT_NEAR((*mission->T_frame_camera * Vec3::UnitX() - Vec3(0, 1.05, 0.1)).norm(), 0.0, 1e-12);
 }
 
+TEST(CameraSection, MotionIsOffAndSetByAPresetOrFigureByFigure) {
+  const auto motion = [](const std::string& lines) {
+    const auto mission = mission_with(lines);
+    EXPECT_TRUE(mission) << lines << mission.error().message;
+    return mission ? mission->simulation.sensor.motion : CameraMotionOptions{};
+  };
+  EXPECT_FALSE(motion("").any());
+  EXPECT_FALSE(motion("camera: {preset: d435}\n").any());
+  EXPECT_EQ(motion("camera: {motion: d435}\n").exposure_s, 0.0085);
+  const CameraMotionOptions o = motion(
+      "camera:\n  motion: d435\n  motion_model: {exposure_ms: 5, stamp_offset_ms: -30, "
+      "depth_rolls: true, sub_frames: 7}\n");
+  EXPECT_EQ(o.exposure_s, 0.005);
+  EXPECT_EQ(o.readout_s, 0.016);
+  EXPECT_EQ(o.stamp_offset_s, -0.03);
+  EXPECT_TRUE(o.depth_rolls);
+  EXPECT_EQ(o.sub_frames, 7);
+  const CameraMotionOptions single =
+      motion("camera: {motion_model: {readout_ms: 10, latency_ms: 40, stamp_jitter_ms: 1.5}}\n");
+  EXPECT_EQ(single.exposure_s, 0.0);
+  EXPECT_EQ(single.readout_s, 0.01);
+  EXPECT_EQ(single.latency_s, 0.04);
+  EXPECT_EQ(single.stamp_jitter_s, 0.0015);
+}
+
+TEST(CameraSection, RefusesMotionThatCannotBe) {
+  const auto said = [](const std::string& model, const std::string& word) {
+    return complaint_about("camera: {motion_model: {" + model + "}}\n").find(word) !=
+           std::string::npos;
+  };
+  EXPECT_NE(complaint_about("camera: {motion: d415}\n").find("global_shutter"), std::string::npos);
+  EXPECT_TRUE(said("exposure_ms: -1", "exposure_ms"));
+  EXPECT_TRUE(said("readout_ms: 1001", "readout_ms"));
+  EXPECT_TRUE(said("latency_ms: long", "latency_ms"));
+  EXPECT_TRUE(said("stamp_offset_ms: -2000", "stamp_offset_ms"));
+  EXPECT_TRUE(said("sub_frames: 0", "sub_frames"));
+  EXPECT_TRUE(said("exposure_s: 0.01", "exposure_ms"));
+}
+
 TEST(CameraSection, RefusesWhatCannotBe) {
   EXPECT_NE(complaint_about("noise: d453\n").find("d435"), std::string::npos);
   EXPECT_NE(complaint_about("label_noise: 0.7\n").find("label_noise"), std::string::npos);

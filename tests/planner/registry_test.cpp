@@ -55,6 +55,22 @@ TEST(PlannerRegistry, APlannerFromOutsideIsMadeWithItsOwnOptions) {
   EXPECT_EQ(dynamic_cast<const Sleeper&>(**planner).dream(), "red fruits");
 }
 
+TEST(PlannerRegistry, KnowsWhoDrivesAlongTheRow) {
+  PlannerRegistry planners = PlannerRegistry::built_in();
+  EXPECT_TRUE(planners.add(
+      "tractor", "", [](const PlannerOptions&) { return std::make_unique<Sleeper>(""); },
+      SegmentOrder::along_row));
+  EXPECT_FALSE(planners.add(
+      "vmp", "", [](const PlannerOptions&) { return std::make_unique<Sleeper>(""); },
+      SegmentOrder::along_row));
+  for (const auto& name : planners.names()) {
+    const bool drives = name == "drive_by" || name == "tractor";
+    EXPECT_EQ(planners.order_of(name), drives ? SegmentOrder::along_row : SegmentOrder::by_stop)
+        << name;
+  }
+  EXPECT_EQ(planners.order_of("vpm"), SegmentOrder::by_stop);
+}
+
 TEST(PlannerRegistry, AFactorysErrorIsPassedOn) {
   const auto planner = with_sleeper().make("sleeper_2", {});
   ASSERT_FALSE(planner.has_value());

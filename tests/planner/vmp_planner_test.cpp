@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
+#include "canopeer/robot/straight_timing.h"
 #include "support/planning_fixture.h"
 
 namespace canopeer {
@@ -15,7 +17,7 @@ namespace {
 /// A planner with a grown graph in a segment that has just begun.
 class VmpPlannerTest : public ::testing::Test {
  protected:
-  void begin(const VmpOptions& options) {
+  void begin(const VmpOptions& options, const std::optional<ImageMotionLimit>& sharp = {}) {
     planner_ = std::make_unique<VmpPlanner>(options);
     PlanningScene scene;
     scene.robot = &world_.robot;
@@ -25,6 +27,7 @@ class VmpPlannerTest : public ::testing::Test {
     scene.judge = &world_.simulation.judge().checker();
     scene.costs = &costs_;
     scene.segment = world_.frame;
+    scene.sharp = sharp;
     planner_->begin_segment(scene);
     planner_->map_changed(world_.home.change);
   }
@@ -94,6 +97,24 @@ class VmpPlannerTest : public ::testing::Test {
   WorkMeter work_;
   std::unique_ptr<VmpPlanner> planner_;
 };
+
+TEST_F(VmpPlannerTest, ItsEdgesCostWhatSharpMotionsTake) {
+  const ImageMotionLimit sharp{CameraIntrinsics(), 0.5, 100.0};
+  begin({}, sharp);
+  planner_->grow(0.1, work_);
+  planner_->decide(world_.frame.home, work_);
+  int edges = 0;
+  const ViewGraph& graph = planner_->graph();
+  for (std::size_t i = 0; i < graph.id_count(); ++i) {
+    const ViewNode& node = graph.node(static_cast<NodeId>(i));
+    for (const ViewEdge& edge : node.edges) {
+      const Configuration& to = graph.node(edge.to).view.q;
+      EXPECT_NEAR(edge.time_s, straight_motion_time(node.view.q, to, world_.robot, sharp), 1e-9);
+      ++edges;
+    }
+  }
+  EXPECT_GT(edges, 20);
+}
 
 TEST_F(VmpPlannerTest, WaitsUntilThereIsAGraphThenMovesFromHome) {
   begin({});

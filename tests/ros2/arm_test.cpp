@@ -107,6 +107,18 @@ TEST_F(Ros2ArmTest, ArrivesWhereThePathEnds) {
   EXPECT_EQ(goal.goal_tolerance.at(0).position, 0.01);
 }
 
+TEST_F(Ros2ArmTest, MovesNoFasterThanSharpFramesAllow) {
+  start();
+  JointPath path = a_motion();
+  const double quick_s = PathMotion(path, test_robot()).duration_s();
+  path.sharp = ImageMotionLimit{CameraIntrinsics(), 0.5, 60.0};
+  const auto planned = arm_->start(path);
+  ASSERT_TRUE(planned);
+  EXPECT_NEAR(*planned, PathMotion(path, test_robot()).duration_s(), 1e-6);
+  EXPECT_GT(*planned, 1.2 * quick_s);
+  EXPECT_EQ(must(arm_->finish()).end, MotionEnd::arrived);
+}
+
 TEST_F(Ros2ArmTest, RefusesWithoutFreshJointStates) {
   start();
   controller_->faults([](ControllerFaults& f) { f.joint_states = false; });

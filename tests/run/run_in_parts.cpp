@@ -5,12 +5,15 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <string_view>
 
 #include "canopeer/run/run.h"
 
 namespace {
 
 using namespace canopeer;
+
+constexpr std::string_view kOnTheWay = "_on_the_way";  // behind a planner's name: with frames
 
 template <typename T>
 T must(Expected<T> value) {
@@ -27,11 +30,18 @@ int main(int argc, char** argv) {
   if (argc != 6) return 2;
   StageRequest request;
   request.mission = argv[1];
-  request.overrides = {{"planner", argv[3]},
+  std::string planner = argv[3];
+  const std::size_t on_the_way = planner.find(kOnTheWay);
+  planner = planner.substr(0, on_the_way);
+  request.overrides = {{"planner", planner},
                        {"time_per_segment_s", "4"},
                        {"sides", "[1, 2]"},
                        {"simulation.arrival_error_rad", "0.003"},
                        {"noise", "d435"}};
+  if (on_the_way != std::string::npos) {
+    request.overrides.emplace_back("frames.on_the_way_hz", "10");
+    request.overrides.emplace_back("camera.motion", "d405");
+  }
   request.table_dirs = {CANOPEER_TABLES};
   const RunRegistries registries = RunRegistries::built_in();
   const auto run = must(Run::compose(request, registries, argv[2]));

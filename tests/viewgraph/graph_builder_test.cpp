@@ -51,6 +51,25 @@ TEST(GraphBuilder, EdgesAreShortFreeAndTakeTheirMotionTime) {
   }
 }
 
+TEST(GraphBuilder, EdgesCostWhatSharpMotionsTake) {
+  const test::PlanningFixture world;
+  GraphBuilderOptions options;
+  options.sharp = ImageMotionLimit{CameraIntrinsics(), 0.5, 100.0};
+  const Grown grown = grow(world, 5, options);
+  int slower = 0;
+  for (std::size_t i = 0; i < grown.graph.id_count(); ++i) {
+    const ViewNode& node = grown.graph.node(static_cast<NodeId>(i));
+    if (node.removed) continue;
+    for (const auto& edge : node.edges) {
+      const Configuration& to = grown.graph.node(edge.to).view.q;
+      const double sharp_s = straight_motion_time(node.view.q, to, world.robot, options.sharp);
+      EXPECT_NEAR(edge.time_s, sharp_s, 1e-9);  // joined from either side
+      if (edge.time_s > 1.1 * motion_time(node.view.q, to, world.robot.limits())) ++slower;
+    }
+  }
+  EXPECT_GT(slower, 20);
+}
+
 TEST(GraphBuilder, NoTwoViewsAreSimilar) {
   const test::PlanningFixture world;
   const Grown grown = grow(world, 10);

@@ -12,7 +12,7 @@ enum class Work : std::size_t {
   detect_frame,     ///< one frame searched for fruit pixels
   fuse_point,       ///< one depth pixel fused into the map
   field_block,      ///< one changed block brought into the distance field
-  target_block,     ///< one block searched for frontiers
+  target_block,     ///< one block of the region whose frontiers are kept, per frame
   candidate,        ///< one view pose candidate drawn, with its target ray
   view_ik,          ///< one view pose solved for arm configurations
   state_check,      ///< one arm configuration checked for collisions
@@ -21,6 +21,7 @@ enum class Work : std::size_t {
   expansion,        ///< one neighbour evaluated by the search
   exact_state,      ///< one arm configuration judged on the exact geometry
   motion_plan,      ///< one state checked by the global motion planner
+  fruit_frame,      ///< one frame taken into the fruit map
   count
 };
 

@@ -64,6 +64,26 @@ void read_lens(YamlMap& camera, const CameraIntrinsics& k, RgbdSensorOptions& se
   }
 }
 
+/// A duration that files give in milliseconds.
+double seconds(YamlMap& map, const char* key_ms, double default_s, double least_ms,
+               double most_ms) {
+  const double ms = map.number(key_ms, 1000.0 * default_s, {least_ms, most_ms});
+  return map.has(key_ms) ? ms / 1000.0 : default_s;
+}
+
+void read_motion(YamlMap& camera, CameraMotionOptions& o) {
+  o = camera_motion_preset(camera.choice("motion", "none", camera_motion_names()));
+  YamlMap m = camera.map("motion_model");
+  o.exposure_s = seconds(m, "exposure_ms", o.exposure_s, 0.0, 1e3);
+  o.readout_s = seconds(m, "readout_ms", o.readout_s, 0.0, 1e3);
+  o.depth_rolls = m.boolean("depth_rolls", o.depth_rolls);
+  o.latency_s = seconds(m, "latency_ms", o.latency_s, 0.0, 1e4);
+  o.stamp_jitter_s = seconds(m, "stamp_jitter_ms", o.stamp_jitter_s, 0.0, 1e3);
+  o.stamp_offset_s = seconds(m, "stamp_offset_ms", o.stamp_offset_s, -1e3, 1e3);
+  o.sub_frames = m.integer("sub_frames", o.sub_frames, 1, 255);
+  if (auto ok = o.validate(); !ok) camera.complain("motion_model", ok.error().message);
+}
+
 }  // namespace
 
 void read_camera(YamlMap camera, MissionFile& mission) {
@@ -74,6 +94,7 @@ void read_camera(YamlMap camera, MissionFile& mission) {
   RgbdSensorOptions& sensor = simulation.sensor;
   sensor.hand_eye_translation_m = camera.number("hand_eye_error_m", 0.0, {0.0, 0.2});
   sensor.hand_eye_rotation_rad = camera.number("hand_eye_error_deg", 0.0, {0.0, 45.0}) * kDegree;
+  read_motion(camera, sensor.motion);
 }
 
 void read_noise(YamlMap& file, RgbdSensorOptions& sensor) {

@@ -5,8 +5,9 @@
 
 namespace canopeer {
 
-/// Reads the `camera:` section of a mission: preset, intrinsics, lens, mounting, hand–eye error.
-/// Complaints go to `camera`.
+/// Reads the `camera:` section of a mission: preset, intrinsics, lens, mounting, hand–eye error,
+/// `motion:` (a preset's name) and `motion_model:` (its figures one by one). Complaints go to
+/// `camera`.
 void read_camera(YamlMap camera, MissionFile& mission);
 
 /// Reads `noise:` (a preset's name), `noise_model:` (its figures one by one) and `label_noise:` at

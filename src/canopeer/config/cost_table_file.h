@@ -9,7 +9,8 @@
 
 namespace canopeer {
 
-/// Reads a table of seconds per unit of work: one key per kind (work_name), all required, ≥ 0.
+/// Reads a table of seconds per unit of work: one key per kind (work_name), all required but
+/// fruit_frame (0), ≥ 0.
 /// "free" needs no file: see CostTable's default.
 [[nodiscard]] Expected<CostTable> load_cost_table(const std::filesystem::path& path);
 

@@ -126,10 +126,24 @@ void read_rvp(YamlMap rvp, RvpOptions& o) {
   o.motion.max_iterations = rvp.integer("max_iterations", o.motion.max_iterations, 1, 10000000);
 }
 
-void read_coverage(YamlMap coverage, SerpentineOptions& o) {
-  o.spacing_m = coverage.number("spacing_m", o.spacing_m, {0.02, 10.0});
-  o.row_distance_m = coverage.number("row_distance_m", o.row_distance_m, {0.0, 10.0});
-  o.tilt_rad = coverage.number("tilt_deg", o.tilt_rad / kDegree, {0.0, 85.0}) * kDegree;
+void read_scan(YamlMap& section, SerpentineOptions& o) {
+  o.spacing_m = section.number("spacing_m", o.spacing_m, {0.02, 10.0});
+  o.row_distance_m = section.number("row_distance_m", o.row_distance_m, {0.0, 10.0});
+  o.tilt_rad = section.number("tilt_deg", o.tilt_rad / kDegree, {0.0, 85.0}) * kDegree;
+}
+
+void read_coverage(YamlMap coverage, CoverageOptions& o) { read_scan(coverage, o.scan); }
+
+void read_sweep(YamlMap sweep, SweepOptions& o) {
+  read_scan(sweep, o.scan);
+  o.stretch_m = sweep.number("stretch_m", o.stretch_m, {0.01, 1000.0});
+}
+
+void read_drive_by(YamlMap drive_by, DriveByOptions& o) {
+  o.poses = drive_by.integer("poses", o.poses, 1, 3);
+  o.row_distance_m = drive_by.number("row_distance_m", o.row_distance_m, {0.0, 10.0});
+  o.tilt_rad = drive_by.number("tilt_deg", o.tilt_rad / kDegree, {0.0, 85.0}) * kDegree;
+  o.overrun_m = drive_by.number("overrun_m", o.overrun_m, {0.0, 100.0});
 }
 
 void read_collision(YamlMap collision, CollisionOptions& o) {
@@ -210,14 +224,17 @@ Expected<MissionFile> load_mission(const fs::path& path, const Overrides& overri
   }
   read_camera(file->map("camera"), result);
   read_noise(*file, result.simulation.sensor);
-  read_frames(*file, result.simulation.camera, 0.0, mission);
+  read_frames(*file, result.simulation.camera, result.simulation.sensor.motion.exposure_s,
+              mission);
   read_map(file->map("map"), mission);
   read_view_sampling(file->map("view_sampling"), vmp.builder);
   read_graph(file->map("graph"), vmp.builder);
   read_search(file->map("search"), vmp);
   read_execution(file->map("execution"), vmp);
   read_rvp(file->map("rvp"), mission.planners.rvp);
-  read_coverage(file->map("coverage"), mission.planners.coverage.scan);
+  read_coverage(file->map("coverage"), mission.planners.coverage);
+  read_sweep(file->map("sweep"), mission.planners.sweep);
+  read_drive_by(file->map("drive_by"), mission.planners.drive_by);
   read_collision(file->map("collision"), mission.collision);
   read_detector(file->map("detector"), path.parent_path(), registries.detectors.names(),
                 mission.detector);

@@ -77,6 +77,7 @@ Expected<Sighting> Perception::take_in(const RgbdFrame& frame, WorkMeter& work, 
   timer.time("fruit map", [&] { update_fruits(frame, fruit); });
   work.add(Work::detect_frame);
   work.add(Work::fuse_point, seen.fused.fused_points);
+  work.add(Work::fruit_frame);
   return seen;
 }
 

@@ -127,7 +127,8 @@ class Planner {
  public:
   virtual ~Planner() = default;
 
-  /// Forgets the last segment. `scene` stays valid until the next call of this or of restore.
+  /// Forgets the last segment. `scene` stays valid until the next call of this, of moved or of
+  /// restore.
   virtual void begin_segment(const PlanningScene& scene) = 0;
   /// The trolley has driven: the scene's trolley, frame and checker are new.
   virtual void moved(const PlanningScene& /*scene*/) {}

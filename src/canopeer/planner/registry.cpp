@@ -1,6 +1,7 @@
 #include "canopeer/planner/registry.h"
 
 #include <string>
+#include <utility>
 
 #include "canopeer/planner/vmp_released/vmp_released.h"
 
@@ -19,7 +20,24 @@ PlannerRegistry PlannerRegistry::built_in() {
           [](const PlannerOptions& o) { return std::make_unique<RandomPlanner>(o.random); });
   all.put("coverage", "a fixed scan, line by line",
           [](const PlannerOptions& o) { return std::make_unique<CoveragePlanner>(o.coverage); });
+  all.put("sweep", "the same scan without stops, as fast as frames stay sharp",
+          [](const PlannerOptions& o) { return std::make_unique<SweepPlanner>(o.sweep); });
+  all.put("drive_by", "the arm parked, the trolley drives along the row",
+          [](const PlannerOptions& o) { return std::make_unique<DriveByPlanner>(o.drive_by); });
+  all.along_row_.insert("drive_by");
   return all;
+}
+
+Expected<void> PlannerRegistry::add(std::string name, std::string one_line, Factory factory,
+                                    SegmentOrder order) {
+  auto added = NamedFactories::add(name, std::move(one_line), std::move(factory));
+  if (added && order == SegmentOrder::along_row) along_row_.insert(std::move(name));
+  return added;
+}
+
+SegmentOrder PlannerRegistry::order_of(std::string_view name) const {
+  return along_row_.find(name) == along_row_.end() ? SegmentOrder::by_stop
+                                                   : SegmentOrder::along_row;
 }
 
 Expected<std::unique_ptr<Planner>> PlannerRegistry::make(std::string_view name,

@@ -16,6 +16,11 @@ ViewMover::ViewMover(const PlanningScene& scene, const MotionPlannerOptions& opt
       T_base_world_(scene.segment.T_world_base.inverse()),
       planner_(*scene.robot, options) {}
 
+void ViewMover::moved(const PlanningScene& scene) {
+  scene_ = scene;
+  T_base_world_ = scene.segment.T_world_base.inverse();
+}
+
 std::optional<Configuration> ViewMover::reach(const Vec3& camera_world, const Vec3& target_world,
                                               const Configuration& near, WorkMeter& work) const {
   work.add(Work::view_ik);

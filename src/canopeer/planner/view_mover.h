@@ -16,6 +16,9 @@ class ViewMover {
   /// Keeps pointers to what `scene` points to; they must outlive the mover.
   ViewMover(const PlanningScene& scene, const MotionPlannerOptions& options);
 
+  /// The trolley has driven.
+  void moved(const PlanningScene& scene);
+
   /// The collision-free configuration nearest to `near` (Σ|Δq|) in which the camera stands at
   /// `camera_world` and looks at `target_world`, at any roll; nothing: out of reach or blocked.
   [[nodiscard]] std::optional<Configuration> reach(const Vec3& camera_world,

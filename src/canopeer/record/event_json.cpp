@@ -238,7 +238,8 @@ Json from(const MotionEvent& motion) {
     json["frames"] = {{"fused", frames->fused},
                       {"late", frames->late},
                       {"blurred", frames->blurred},
-                      {"alike", frames->alike}};
+                      {"alike", frames->alike},
+                      {"unread", frames->unread}};
   }
   return json;
 }
@@ -258,7 +259,8 @@ MotionEvent to_motion(const Json& json) {
   motion.why = json.value("why", motion.why);
   if (const auto frames = json.find("frames"); frames != json.end()) {
     motion.frames = FrameCounts{frames->at("fused").get<int>(), frames->at("late").get<int>(),
-                                frames->at("blurred").get<int>(), frames->at("alike").get<int>()};
+                                frames->at("blurred").get<int>(), frames->at("alike").get<int>(),
+                                frames->at("unread").get<int>()};
   }
   return motion;
 }

@@ -83,6 +83,7 @@ struct FrameCounts {
   int late = 0;     ///< perception was busy
   int blurred = 0;  ///< more than was allowed
   int alike = 0;    ///< the camera had hardly moved since the last one
+  int unread = 0;   ///< its images could not be read
 };
 
 /// One frame taken while the arm or the trolley moved, and fused.

@@ -55,6 +55,7 @@ void for_each_field(AnySummary& summary, Visit&& visit) {
   visit("frames_late", summary.frames_late);
   visit("frames_blurred", summary.frames_blurred);
   visit("frames_alike", summary.frames_alike);
+  visit("frames_unread", summary.frames_unread);
   visit("joint_path_length_rad", summary.joint_path_length_rad);
   visit("motion_time_s", summary.motion_time_s);
   visit("planning_time_s", summary.planning_time_s);
@@ -125,6 +126,7 @@ void add_up_motions(const RunRecord& record, RunScores& scores) {
     count(scores.frames_late, motion.frames->late);
     count(scores.frames_blurred, motion.frames->blurred);
     count(scores.frames_alike, motion.frames->alike);
+    count(scores.frames_unread, motion.frames->unread);
   }
   for (const ViewEvent& view : record.views) scores.planning_time_s += view.planning_s;
 }

@@ -52,6 +52,7 @@ struct RunScores {
   std::optional<int> frames_late;     ///< perception was busy
   std::optional<int> frames_blurred;  ///< more than the mission allows
   std::optional<int> frames_alike;    ///< the camera had hardly moved
+  std::optional<int> frames_unread;   ///< their images could not be read
 
   double joint_path_length_rad = 0.0;  ///< Σ|Δq| of all motions
   double motion_time_s = 0.0;          ///< of all motions, transitions included

@@ -3,7 +3,9 @@
 #include <bit>
 #include <utility>
 
+#include "canopeer/base/check.h"
 #include "canopeer/base/rng.h"
+#include "canopeer/render/motion/moving_view.h"
 #include "canopeer/render/surfaces/pixel_hash.h"
 
 namespace canopeer {
@@ -67,6 +69,7 @@ RgbdSensor::RgbdSensor(const Renderer& renderer, const Scene& scene,
       rays_(options.noise.any_depth() ? without_range(options.intrinsics) : options.intrinsics,
             options.lens),
       T_said_true_(draw_hand_eye_error(options)) {
+  CANOPEER_CHECK(options.motion.validate(), "figures of a camera's motion are checked before");
   if (!options.lens.none() && options.rectify) {
     rectification_.emplace(options.intrinsics, options.lens);
   }
@@ -76,8 +79,29 @@ RgbdSensor::RgbdSensor(const Renderer& renderer, const Scene& scene,
 }
 
 RgbdFrame RgbdSensor::capture(const Pose& T_world_camera, std::uint64_t number) const {
-  const std::uint64_t key = frame_key(options_.seed, number, T_world_camera);
-  RenderedView view = renderer_.render(rays_, T_world_camera * T_said_true_);
+  return frame_of(renderer_.render(rays_, T_world_camera * T_said_true_), T_world_camera,
+                  frame_key(options_.seed, number, T_world_camera));
+}
+
+RgbdFrame RgbdSensor::capture_moving(const CameraTrack& track, double t_s,
+                                     std::uint64_t number) const {
+  const double stamp = stamp_of(t_s, number);
+  const Pose said = track(stamp);
+  const std::uint64_t key = frame_key(options_.seed, number, said);
+  const CameraTrack true_track = [&](double t) -> Pose { return track(t) * T_said_true_; };
+  RgbdFrame frame = frame_of(render_moving(renderer_, rays_, true_track, t_s, options_.motion,
+                                           options_.noise.edge_step, key),
+                             said, key);
+  frame.time_s = stamp;
+  return frame;
+}
+
+double RgbdSensor::stamp_of(double t_s, std::uint64_t number) const {
+  return time_stamp(options_.motion, t_s, options_.seed, number);
+}
+
+RgbdFrame RgbdSensor::frame_of(RenderedView view, const Pose& T_world_camera,
+                               std::uint64_t key) const {
   RgbdFrame frame;
   frame.intrinsics = options_.intrinsics;
   frame.T_world_camera = T_world_camera;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "canopeer/render/camera_motion.h"
 #include "canopeer/render/renderer.h"
 #include "canopeer/render/sensor_noise.h"
 #include "canopeer/sensing/camera_rays.h"
@@ -21,6 +22,8 @@ struct RgbdSensorOptions {
   /// seen, though everybody takes them for a pinhole's.
   bool rectify = true;
   SensorNoiseOptions noise;
+  /// Blur, rolling shutter and time stamps of frames taken while it moves.
+  CameraMotionOptions motion;
   /// Probability that a pixel's label is wrong: a fruit's pixel says background, another one says
   /// fruit, of any ripeness. 0 … 1; 0.3 is the "right with 0.7" of the literature.
   double label_noise = 0.0;
@@ -42,10 +45,24 @@ class RgbdSensor {
   /// one to the next. time_s is left 0. Thread-safe.
   [[nodiscard]] RgbdFrame capture(const Pose& T_world_camera, std::uint64_t number) const;
 
+  /// A frame exposed around `t_s`, the middle of the middle row's exposure, while the camera moves
+  /// along `track`. Its time_s is its stamp, its T_world_camera where `track` says the camera was
+  /// then. `track` is asked for that moment and for half the exposure and readout before and after
+  /// t_s. While the camera stands still, or with motion off, it shows what capture() shows.
+  /// Thread-safe; the same arguments give the same frame with any number of threads.
+  [[nodiscard]] RgbdFrame capture_moving(const CameraTrack& track, double t_s,
+                                         std::uint64_t number) const;
+
+  /// The stamp that capture_moving() gives that frame, s.
+  [[nodiscard]] double stamp_of(double t_s, std::uint64_t number) const;
+
   /// From the calibrated camera frame to where it really is.
   [[nodiscard]] const Pose& hand_eye_error() const { return T_said_true_; }
 
  private:
+  /// What becomes of a view: noise, labels, rectification.
+  [[nodiscard]] RgbdFrame frame_of(RenderedView view, const Pose& T_world_camera,
+                                   std::uint64_t key) const;
   [[nodiscard]] Image<PixelLabel> labels_of(const Labels& truth) const;
   void add_label_noise(std::uint64_t key, Image<PixelLabel>* labels) const;
 

@@ -24,8 +24,10 @@ bool same_pinhole(const CameraIntrinsics& a, const CameraIntrinsics& b) {
 }  // namespace
 
 struct RunFrames::State {
+  explicit State(const RobotModel& its_robot) : robot(its_robot) {}
+
   RunStory story;
-  JointLimits limits;
+  RobotModel robot;
   std::vector<Frame> first;
   MapFrames map;
   PlanFrames plan;
@@ -67,7 +69,7 @@ struct RunFrames::State {
     return {plan.plan(planned)};
   }
   std::vector<Frame> frames(const MotionBegun& motion) const {
-    return {motion_frame(motion, limits)};
+    return {motion_frame(motion, robot)};
   }
   std::vector<Frame> frames(const MotionEnded& ended) const {
     const MotionEvent& motion = ended.motion;
@@ -107,8 +109,7 @@ Frame hello_frame(const RunStory& story) {
 }  // namespace
 
 RunFrames::RunFrames(RunStory story, const RobotModel& robot, const Scene* truth)
-    : state_(std::make_unique<State>()) {
-  state_->limits = robot.limits();
+    : state_(std::make_unique<State>(robot)) {
   state_->first = {hello_frame(story), robot_frame(robot, story.camera)};
   if (truth != nullptr) state_->first.push_back(truth_frame(*truth));
   state_->story = std::move(story);

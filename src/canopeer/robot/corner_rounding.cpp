@@ -24,21 +24,37 @@ double widest_free_arc(const Configuration& before, const Configuration& corner,
   return 0.0;
 }
 
-}  // namespace
-
-JointPath round_corners(const std::vector<Configuration>& waypoints, const JointLimits& limits,
-                        const CollisionChecker& checker, int& states_checked,
-                        const CornerRoundingOptions& options) {
-  const JointPath stopping{waypoints};
+template <typename Time>
+JointPath faster_rounded(const JointPath& stopping, const Time& time,
+                         const CollisionChecker& checker, int& states_checked,
+                         const CornerRoundingOptions& options) {
+  const std::vector<Configuration>& waypoints = stopping.waypoints;
   if (waypoints.size() < 3) return stopping;
-  JointPath rounded{waypoints, std::vector<double>(waypoints.size(), 0.0)};
+  JointPath rounded = stopping;
+  rounded.deviations.assign(waypoints.size(), 0.0);
   for (std::size_t i = 1; i + 1 < waypoints.size(); ++i) {
     rounded.deviations[i] = widest_free_arc(waypoints[i - 1], waypoints[i], waypoints[i + 1],
                                             checker, states_checked, options);
   }
   constexpr double kWorthIt = 1.0 - 1e-6;
-  const bool faster = motion_time(rounded, limits) < kWorthIt * motion_time(stopping, limits);
-  return faster ? rounded : stopping;
+  return time(rounded) < kWorthIt * time(stopping) ? rounded : stopping;
+}
+
+}  // namespace
+
+JointPath round_corners(const std::vector<Configuration>& waypoints, const JointLimits& limits,
+                        const CollisionChecker& checker, int& states_checked,
+                        const CornerRoundingOptions& options) {
+  const auto time = [&](const JointPath& path) { return motion_time(path, limits); };
+  return faster_rounded(JointPath{waypoints}, time, checker, states_checked, options);
+}
+
+JointPath round_corners(const JointPath& path, const RobotModel& robot,
+                        const CollisionChecker& checker, int& states_checked,
+                        const CornerRoundingOptions& options) {
+  const JointPath stopping{path.waypoints, {}, path.sharp};
+  const auto time = [&](const JointPath& way) { return motion_time(way, robot); };
+  return faster_rounded(stopping, time, checker, states_checked, options);
 }
 
 std::vector<Configuration> points_along(const JointPath& path, double arc_step) {
@@ -62,6 +78,11 @@ double motion_time(const JointPath& path, const JointLimits& limits) {
   for (std::size_t i = 1; i < path.waypoints.size(); ++i)
     time_s += motion_time(path.waypoints[i - 1], path.waypoints[i], limits);
   return time_s;
+}
+
+double motion_time(const JointPath& path, const RobotModel& robot) {
+  if (!path.sharp) return motion_time(path, robot.limits());
+  return PathMotion(path, robot).duration_s();
 }
 
 }  // namespace canopeer

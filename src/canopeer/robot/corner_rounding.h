@@ -21,6 +21,10 @@ struct CornerRoundingOptions {
                                       const JointLimits& limits, const CollisionChecker& checker,
                                       int& states_checked,
                                       const CornerRoundingOptions& options = {});
+/// The same for the waypoints of `path`, under its limit on image motion, which the answer keeps.
+[[nodiscard]] JointPath round_corners(const JointPath& path, const RobotModel& robot,
+                                      const CollisionChecker& checker, int& states_checked,
+                                      const CornerRoundingOptions& options = {});
 
 /// Points along a path: waypoints it stops at, ends of its lines, and on its arcs points no more
 /// than `arc_step` of path length apart.
@@ -30,5 +34,7 @@ struct CornerRoundingOptions {
 /// How long the fastest motion along a path takes under the limits, s: stopping where the path
 /// says so.
 [[nodiscard]] double motion_time(const JointPath& path, const JointLimits& limits);
+/// The same under the robot's limits and `path.sharp`: the time of PathMotion(path, robot).
+[[nodiscard]] double motion_time(const JointPath& path, const RobotModel& robot);
 
 }  // namespace canopeer

@@ -1,8 +1,11 @@
 #include "canopeer/robot/straight_timing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+
+#include "canopeer/robot/timing/image_motion.h"
 
 namespace canopeer {
 namespace {
@@ -29,6 +32,27 @@ LineLimits line_limits(const Configuration& a, const Configuration& b, const Joi
 double unit_time(double rate, double acceleration) {
   if (rate * rate >= acceleration) return 2.0 / std::sqrt(acceleration);  // cruise is not reached
   return 1.0 / rate + rate / acceleration;
+}
+
+/// Unit distance in equal parts, each with its largest ṡ² and |s̈| ≤ u, standing at both ends: the
+/// two passes of PathMotion.
+template <std::size_t n>
+double time_in_parts(const std::array<double, n>& most_x, double u) {
+  constexpr double kLength = 1.0 / n;
+  std::array<double, n + 1> begin_x{};  // at most, so that all ahead can be kept
+  for (std::size_t k = n; k-- > 1;)
+    begin_x[k] = std::min({most_x[k - 1], most_x[k], begin_x[k + 1] + 2.0 * kLength * u});
+  double time_s = 0.0;
+  double x = 0.0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double end = std::min(begin_x[k + 1], x + 2.0 * kLength * u);
+    const double highest = std::max({x, end, std::min(most_x[k], (x + end) / 2.0 + kLength * u)});
+    const double rate = std::sqrt(highest);
+    const double cruise = kLength - (2.0 * highest - x - end) / (2.0 * u);
+    time_s += (2.0 * rate - std::sqrt(x) - std::sqrt(end)) / u + std::max(0.0, cruise) / rate;
+    x = end;
+  }
+  return time_s;
 }
 
 }  // namespace
@@ -62,6 +86,30 @@ Configuration StraightMotion::at(double t_s) const {
 double motion_time(const Configuration& a, const Configuration& b, const JointLimits& limits) {
   const LineLimits line = line_limits(a, b, limits);
   return std::isfinite(line.rate) ? unit_time(line.rate, line.acceleration) : 0.0;
+}
+
+double straight_motion_time(const Configuration& a, const Configuration& b, const RobotModel& robot,
+                            const std::optional<ImageMotionLimit>& sharp) {
+  const LineLimits line = line_limits(a, b, robot.limits());
+  if (!std::isfinite(line.rate)) return 0.0;
+  const double by_joints = unit_time(line.rate, line.acceleration);
+  if (!sharp) return by_joints;
+
+  constexpr std::size_t kParts = 8;
+  const ImageMotion image(robot, *sharp);
+  const Configuration delta = b - a;
+  const double joints_x = line.rate * line.rate;
+  std::array<double, kParts> most_x{};  // ṡ² in each part, by its mean image motion
+  bool limited = false;
+  double along = image.along(a, delta);
+  for (std::size_t k = 0; k < kParts; ++k) {
+    const double next = image.along(a + static_cast<double>(k + 1) / kParts * delta, delta);
+    const double rate = 2.0 * image.limit_px_s() / (along + next);
+    most_x[k] = std::min(joints_x, rate * rate);
+    limited = limited || most_x[k] < joints_x;
+    along = next;
+  }
+  return limited ? std::max(by_joints, time_in_parts(most_x, line.acceleration)) : by_joints;
 }
 
 double axis_motion_time(double distance, double velocity_limit, double acceleration_limit) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+
+#include "canopeer/robot/joint_path.h"
 #include "canopeer/robot/robot_model.h"
 
 namespace canopeer {
@@ -30,7 +33,14 @@ class StraightMotion {
 [[nodiscard]] double motion_time(const Configuration& a, const Configuration& b,
                                  const JointLimits& limits);
 
-/// The same for one axis (the trolley's), distance in m or rad, s.
+/// About how long the straight motion takes that keeps to `sharp` too, s: PathMotion's time to a
+/// few per cent, from nine looks at the camera. Exactly motion_time() without `sharp`, or where it
+/// limits nothing. Allocates nothing.
+[[nodiscard]] double straight_motion_time(const Configuration& a, const Configuration& b,
+                                          const RobotModel& robot,
+                                          const std::optional<ImageMotionLimit>& sharp);
+
+/// The time of motion_time() for one axis (the trolley's), distance in m or rad, s.
 [[nodiscard]] double axis_motion_time(double distance, double velocity_limit,
                                       double acceleration_limit);
 

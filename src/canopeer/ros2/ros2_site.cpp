@@ -33,14 +33,21 @@ class PlacingTrolley : public Trolley {
   void watch_map(const VoxelMap* map) { map_ = map; }
   TrolleyState state() const override { return trolley_.state(); }
   Expected<void> move_to(const TrolleyState& goal) override {
-    auto moved = trolley_.move_to(goal);
+    return placed(trolley_.move_to(goal));
+  }
+  Expected<double> start(const TrolleyState& goal, double max_travel_m_s) override {
+    return trolley_.start(goal, max_travel_m_s);
+  }
+  Expected<void> finish() override { return placed(trolley_.finish()); }
+
+ private:
+  Expected<void> placed(const Expected<void>& moved) {
     if (!moved || !trolley_.in_doubt()) return moved;
     auto frame = camera_.capture();
     if (!frame) return fail_in("camera", frame.error());
     return trolley_.check_place(map_, *frame);
   }
 
- private:
   Ros2Trolley& trolley_;
   Camera& camera_;
   const VoxelMap* map_ = nullptr;

@@ -7,6 +7,7 @@
 #include "canopeer/base/exact_text.h"
 #include "canopeer/config/robot_file.h"
 #include "canopeer/mission/mission_time.h"
+#include "canopeer/mission/row_segments.h"
 
 namespace canopeer {
 namespace {
@@ -112,6 +113,9 @@ Expected<std::unique_ptr<Stage>> Stage::make(MissionFile file, const StageReques
   MissionOptions& mission = file.mission;
   if (mission.clock == MissionClock::whole) {
     mission.mission_time_s = whole_mission_time_s(*robot, mission);
+  }
+  if (registries.planners.order_of(mission.planner) == SegmentOrder::along_row) {
+    mission.segments = segments_along_row(mission.segments, mission.segment_time_s);
   }
   std::unique_ptr<Stage> stage(
       new Stage(std::move(file), std::move(*robot), std::move(*ik), registries));

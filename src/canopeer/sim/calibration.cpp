@@ -3,6 +3,7 @@
 #include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <ctime>
 #include <limits>
@@ -10,10 +11,9 @@
 
 #include "canopeer/base/check.h"
 #include "canopeer/base/rng.h"
-#include "canopeer/map/distance_field.h"
 #include "canopeer/map/frontier.h"
-#include "canopeer/map/fusion.h"
 #include "canopeer/map/view_cast.h"
+#include "canopeer/mission/perception.h"
 #include "canopeer/robot/motion_planner.h"
 #include "canopeer/search/path_search.h"
 #include "canopeer/viewgraph/graph_builder.h"
@@ -22,7 +22,7 @@ namespace canopeer {
 namespace {
 
 constexpr int kRepetitions = 3;
-constexpr int kFrames = 6;  // the map a segment's middle looks like
+constexpr int kFrames = 20;  // the map a segment's end looks like
 constexpr int kGraphNodes = 600;
 
 double cpu_now_s() {
@@ -44,20 +44,36 @@ double best_per_unit(Work&& work) {
   return std::isfinite(best) ? best : 0.0;
 }
 
+/// CPU time and units of one kind of work, added up.
+struct Spent {
+  double seconds = 0.0;
+  std::int64_t units = 0;
+
+  template <typename Step>
+  auto time(const Step& step) {
+    const double begin_s = cpu_now_s();
+    auto result = step();
+    seconds += cpu_now_s() - begin_s;
+    return result;
+  }
+  [[nodiscard]] double per_unit() const {
+    return units > 0 ? seconds / static_cast<double>(units) : 0.0;
+  }
+};
+
 /// One segment with a map and a graph in it, and the measurements one by one.
 class Bench {
  public:
   Bench(const RobotModel& robot, const ArmIk& ik, const Scene& scene, const MissionOptions& mission,
-        const Detector& detector, const SimulationOptions& options)
+        const DetectorRegistry& detectors, const SimulationOptions& options)
       : robot_(robot),
         ik_(ik),
         mission_(mission),
-        detector_(detector),
+        detectors_(detectors),
         plan_(mission.segments.front()),
         home_(robot.home("side_" + std::to_string(plan_.side))),
         simulation_(robot, scene, home_, plan_.trolley, options),
-        map_(mission.map),
-        field_(field_options(), map_.resolution_m()),
+        perception_(mission, detectors),
         checker_(robot, plan_.trolley, mission.collision) {
     frame_.trolley = plan_.trolley;
     frame_.T_world_base = robot.T_world_base(plan_.trolley);
@@ -65,54 +81,51 @@ class Bench {
     frame_.sampling_region_world =
         transformed(robot.sampling_region(plan_.side), frame_.T_world_base);
     frame_.home = home_;
-    checker_.set_map(&field_);
+    perception_.move_field(frame_.T_world_base.translation());
+    checker_.set_map(&perception_.field());
   }
 
   /// Looks from home, then from views drawn at random; measures what a frame costs.
   void measure_frames(CostTable& costs) {
     Rng rng(1, "calibration views");
     std::vector<RgbdFrame> frames = {capture(home_)};
-    take_in(frames.front());
+    see(perception_, frames.front());
     const ViewSampler sampler(frame_, robot_, ik_, mission_.planners.vmp.builder.sampler);
     TargetSampler targets = current_targets(sampler);
     WorkMeter work;
     for (int tries = 0; tries < 2000 && static_cast<int>(frames.size()) < kFrames; ++tries) {
-      const auto view = sampler.sample(map_, checker_, targets, rng, work);
+      const auto view = sampler.sample(map(), checker_, targets, rng, work);
       if (!view) continue;
       frames.push_back(capture(view->q));
-      take_in(frames.back());
+      see(perception_, frames.back());
       targets = current_targets(sampler);
     }
-    costs[Work::detect_frame] = best_per_unit([&] {
-      for (const auto& frame : frames) static_cast<void>(detector_.detect(frame));
-      return frames.size();
-    });
-    costs[Work::fuse_point] = best_per_unit([&] {
-      VoxelMap fresh(mission_.map);
-      std::int64_t points = 0;
-      for (const auto& f : frames) points += fuse(fresh, f, {}, mission_.fusion).fused_points;
-      return points;
-    });
-    costs[Work::field_block] = field_seconds_per_block(frames);
-    costs[Work::target_block] = best_per_unit([&] {
-      static_cast<void>(extract_frontiers(map_, frame_.sampling_region_world));
-      return map_.block_keys(frame_.sampling_region_world).size();
-    });
+    constexpr std::array kKinds = {Work::detect_frame, Work::fuse_point, Work::field_block,
+                                   Work::target_block, Work::fruit_frame};
+    for (int i = 0; i < kRepetitions; ++i) {
+      const FrameCosts spent = see_again(frames);
+      for (const Work kind : kKinds) {
+        const double s = spent[static_cast<std::size_t>(kind)].per_unit();
+        costs[kind] = i == 0 ? s : std::min(costs[kind], s);
+      }
+    }
   }
 
   void measure_sampling(CostTable& costs) {
     const ViewSampler sampler(frame_, robot_, ik_, mission_.planners.vmp.builder.sampler);
     const TargetSampler targets = current_targets(sampler);
     WorkMeter work;
-    Rng rng(2, "calibration views");
     std::vector<ViewPose> views;
-    const double begin_s = cpu_now_s();
-    for (int i = 0; i < 400; ++i) {
-      if (auto view = sampler.sample(map_, checker_, targets, rng, work)) {
-        views.push_back(std::move(*view));
+    const double candidate_s = best_per_unit([&] {
+      Rng rng(2, "calibration views");
+      work = {};
+      views.clear();
+      for (int i = 0; i < 400; ++i) {
+        if (auto view = sampler.sample(map(), checker_, targets, rng, work))
+          views.push_back(std::move(*view));
       }
-    }
-    const double sampling_s = cpu_now_s() - begin_s;
+      return work.units(Work::candidate);
+    });
     if (views.size() < 2) return;
     const auto count = views.size();
     std::vector<Configuration> solutions;
@@ -124,24 +137,21 @@ class Bench {
       }
       return count;
     });
-    // Most states are checked along edges.
-    costs[Work::state_check] = best_per_unit([&] {
-      int states = 0;
-      for (std::size_t i = 0; i + 1 < count; ++i) {
-        const Configuration next = robot_.endless().nearest(views[i + 1].q, views[i].q);
-        static_cast<void>(checker_.edge_free(views[i].q, next, &states));
-      }
-      return states;
+    const double single_state_s = best_per_unit([&] {
+      for (const auto& view : views) static_cast<void>(checker_.state_free(view.q));
+      return count;
     });
-    const double rest_s =
-        sampling_s - static_cast<double>(work.units(Work::view_ik)) * costs[Work::view_ik] -
-        static_cast<double>(work.units(Work::state_check)) * costs[Work::state_check];
+    const auto per_candidate = [&](Work kind, double unit_s) {
+      return static_cast<double>(work.units(kind)) * unit_s /
+             static_cast<double>(work.units(Work::candidate));
+    };
     costs[Work::candidate] =
-        std::max(0.0, rest_s) / static_cast<double>(work.units(Work::candidate));
+        std::max(0.0, candidate_s - per_candidate(Work::view_ik, costs[Work::view_ik]) -
+                          per_candidate(Work::state_check, single_state_s));
     costs[Work::exact_state] = best_per_unit([&] {
       const std::size_t few = std::min<std::size_t>(count, 40);
       for (std::size_t i = 0; i < few; ++i) {
-        static_cast<void>(simulation_.judge().checker().check(views[i].q, plan_.trolley, &map_));
+        static_cast<void>(simulation_.judge().checker().check(views[i].q, plan_.trolley, &map()));
       }
       return few;
     });
@@ -158,12 +168,12 @@ class Bench {
   void measure_search(CostTable& costs) {
     ViewGraph graph;
     GraphBuilder builder(graph, frame_, robot_, ik_, mission_.planners.vmp.builder, 1);
-    builder.set_targets(map_, extract_frontiers(map_, frame_.sampling_region_world), {});
+    builder.set_targets(map(), extract_frontiers(map(), frame_.sampling_region_world), {});
     WorkMeter work;
     const NodeId start =
         builder.add_start(home_, checker_, frame_.T_world_base * robot_.T_base_camera(home_), work);
     while (!builder.resting() && graph.node_count() < kGraphNodes)
-      builder.grow(map_, checker_, work);
+      builder.grow(map(), checker_, work);
     const ViewFan& fan = mission_.planners.vmp.path_search.fan;
     const auto nodes = static_cast<std::size_t>(graph.id_count());
     costs[Work::neighbor_search] = best_per_unit([&] {
@@ -174,48 +184,73 @@ class Bench {
       }
       return nodes;
     });
+    // Most states are checked along edges between neighbours.
+    const GraphBuilderOptions& options = mission_.planners.vmp.builder;
+    std::vector<std::pair<Configuration, Configuration>> edges;
+    for (std::size_t i = 0; i < nodes; ++i) {
+      const auto id = static_cast<NodeId>(i);
+      const Configuration& q = graph.node(id).view.q;
+      const auto k = static_cast<std::size_t>(options.neighbors);
+      for (const auto& near : graph.nearest(q, k, options.max_edge_distance_rad, id))
+        edges.emplace_back(q, robot_.endless().nearest(graph.node(near.id).view.q, q));
+    }
+    costs[Work::state_check] = best_per_unit([&] {
+      int states = 0;
+      for (const auto& [a, b] : edges) static_cast<void>(checker_.edge_free(a, b, &states));
+      return states;
+    });
     costs[Work::view_cast] = best_per_unit([&] {
       for (std::size_t i = 0; i < nodes; ++i) {
         ViewNode& node = graph.node(static_cast<NodeId>(i));
-        if (!node.removed) node.cast = cast_view(map_, node.view.T_world_camera, fan);
+        if (!node.removed) node.cast = cast_view(map(), node.view.T_world_camera, fan);
       }
       return graph.node_count();
     });
     costs[Work::expansion] = best_per_unit([&] {
       WorkMeter search;
-      static_cast<void>(search_path(graph, start, map_, mission_.planners.vmp.path_search, search));
+      static_cast<void>(
+          search_path(graph, start, map(), mission_.planners.vmp.path_search, search));
       return search.units(Work::expansion);
     });
   }
 
  private:
-  [[nodiscard]] DistanceFieldOptions field_options() const {
-    DistanceFieldOptions around;
-    const Vec3 reach = Vec3::Constant(mission_.field_reach_m);
-    const Vec3 base = robot_.T_world_base(plan_.trolley).translation();
-    around.world = Box(base - reach, base + reach);
-    around.truncation_m = mission_.field_truncation_m;
-    return around;
+  using FrameCosts = std::array<Spent, kWorkKinds>;
+
+  [[nodiscard]] const VoxelMap& map() const { return perception_.map(); }
+
+  /// All steps of a frame, timed one by one, in the units that missions are charged for.
+  void see(Perception& perception, const RgbdFrame& frame, FrameCosts& spent) const {
+    const Box& region = frame_.sampling_region_world;
+    const auto of = [&](Work kind) -> Spent& { return spent[static_cast<std::size_t>(kind)]; };
+    const auto seen = of(Work::detect_frame).time([&] { return perception.detect(frame); });
+    CANOPEER_CHECK(seen.has_value(), "a detector that was made detects");
+    const FuseResult fused =
+        of(Work::fuse_point).time([&] { return perception.fuse(frame, seen->fruit); });
+    of(Work::field_block).time([&] { return perception.update_distances(fused.changed), 0; });
+    of(Work::target_block).time([&] { return perception.update_targets(region, fused.changed); });
+    of(Work::fruit_frame).time([&] { return perception.update_fruits(frame, seen->fruit), 0; });
+    of(Work::detect_frame).units += 1;
+    of(Work::fuse_point).units += fused.fused_points;
+    of(Work::field_block).units += static_cast<std::int64_t>(fused.changed.size());
+    of(Work::target_block).units +=
+        static_cast<std::int64_t>(perception.map().block_keys(region).size());
+    of(Work::fruit_frame).units += 1;
+  }
+  void see(Perception& perception, const RgbdFrame& frame) const {
+    FrameCosts unused;
+    see(perception, frame, unused);
   }
 
-  /// Bringing the blocks a frame changed into the field, without the fusing.
-  [[nodiscard]] double field_seconds_per_block(const std::vector<RgbdFrame>& frames) const {
-    double best = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < kRepetitions; ++i) {
-      VoxelMap map(mission_.map);
-      DistanceField field(field_options(), map.resolution_m());
-      double spent_s = 0.0;
-      std::size_t blocks = 0;
-      for (const auto& frame : frames) {
-        const auto changed = fuse(map, frame, {}, mission_.fusion).changed;
-        const double begin_s = cpu_now_s();
-        field.update(map, changed);
-        spent_s += cpu_now_s() - begin_s;
-        blocks += changed.size();
-      }
-      if (blocks > 0) best = std::min(best, spent_s / static_cast<double>(blocks));
-    }
-    return best;
+  /// What the frames cost one who has seen nothing yet.
+  [[nodiscard]] FrameCosts see_again(const std::vector<RgbdFrame>& frames) const {
+    Perception fresh(mission_, detectors_);
+    fresh.move_field(frame_.T_world_base.translation());
+    // The detector is made with the first frame.
+    CANOPEER_CHECK(fresh.detect(frames.front()).has_value(), "a detector that was made detects");
+    FrameCosts spent;
+    for (const RgbdFrame& frame : frames) see(fresh, frame, spent);
+    return spent;
   }
 
   RgbdFrame capture(const Configuration& q) {
@@ -227,25 +262,19 @@ class Bench {
     CANOPEER_CHECK(frame.has_value(), "the simulated camera always gives a frame");
     return std::move(*frame);
   }
-  void take_in(const RgbdFrame& frame) {
-    const auto seen = detector_.detect(frame);
-    CANOPEER_CHECK(seen.has_value(), "a detector that was made detects");
-    field_.update(map_, fuse(map_, frame, seen->fruit, mission_.fusion).changed);
-  }
   [[nodiscard]] TargetSampler current_targets(const ViewSampler& sampler) const {
-    return sampler.targets_in_reach(extract_frontiers(map_, frame_.sampling_region_world),
-                                    map_.resolution_m(), mission_.planners.vmp.builder.shares);
+    return sampler.targets_in_reach(extract_frontiers(map(), frame_.sampling_region_world),
+                                    map().resolution_m(), mission_.planners.vmp.builder.shares);
   }
 
   const RobotModel& robot_;
   const ArmIk& ik_;
   const MissionOptions& mission_;
-  const Detector& detector_;
+  const DetectorRegistry& detectors_;
   SegmentPlan plan_;
   Configuration home_;
   Simulation simulation_;
-  VoxelMap map_;
-  DistanceField field_;
+  Perception perception_;
   CollisionChecker checker_;
   SegmentFrame frame_;
 };
@@ -253,18 +282,18 @@ class Bench {
 }  // namespace
 
 CostTable measure_costs(const RobotModel& robot, const ArmIk& ik, const Scene& scene,
-                        const MissionOptions& mission, const Detector& detector,
+                        const MissionOptions& mission, const DetectorRegistry& detectors,
                         const SimulationOptions& simulation,
                         const std::function<void(std::string_view)>& progress) {
   // The cost table counts one core's seconds.
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   CostTable costs;
-  Bench bench(robot, ik, scene, mission, detector, simulation);
-  progress("frames: detecting, fusing, distances, targets");
+  Bench bench(robot, ik, scene, mission, detectors, simulation);
+  progress("frames: detecting, fusing, distances, targets, fruits");
   bench.measure_frames(costs);
-  progress("views: sampling, kinematics, collisions, motions");
+  progress("views: sampling, kinematics, motions");
   bench.measure_sampling(costs);
-  progress("graph: neighbours, view casts, search");
+  progress("graph: neighbours, collisions, view casts, search");
   bench.measure_search(costs);
   return costs;
 }

@@ -1,11 +1,15 @@
 #include "canopeer/sim/motion_judge.h"
 
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "canopeer/robot/arm_reach.h"
+#include "canopeer/sim/near_space.h"
 
 namespace canopeer {
 namespace {
@@ -13,6 +17,9 @@ namespace {
 // No point of an arm in use here is farther than this from a joint axis, so |Δq| rad move it at
 // most this times |Δq|.
 constexpr double kReach = 1.3;
+
+/// Cells that the scene is made of where no map says how large its voxels are.
+constexpr double kCellM = 0.01;
 
 std::vector<TriangleMesh> structure_of(const Scene& scene) {
   std::vector<TriangleMesh> found;
@@ -50,7 +57,44 @@ std::vector<Configuration> states_along(const std::vector<Configuration>& waypoi
   return states;
 }
 
+/// Whether parts that no arm joint moves touch each other. All states of a stop have that in
+/// common.
+bool parts_at_rest_touch(const RobotModel& robot, const ExactChecker& checker,
+                         const Configuration& q, const TrolleyState& trolley) {
+  const auto pairs = checker.touching_pairs(q, trolley);
+  return std::any_of(pairs.begin(), pairs.end(), [&](const std::pair<int, int>& pair) {
+    return robot.arm_joints_before(pair.first) == 0 && robot.arm_joints_before(pair.second) == 0 &&
+           robot.pair_checked(pair.first, pair.second);
+  });
+}
+
 }  // namespace
+
+/// Where the trolley stands, and what is near: a long row as a whole would not fit into memory.
+struct MotionJudge::Stop {
+  Stop(const MotionJudge& judge, const TrolleyState& place, double edge_m, const Configuration& q)
+      : trolley(place),
+        space(judge.robot_, judge.scene_, place, edge_m),
+        rest_touches(parts_at_rest_touch(judge.robot_, judge.checker_, q, place)) {}
+
+  TrolleyState trolley;
+  NearSpace space;
+  bool rest_touches;
+
+  /// Made when first asked for: at many stops nobody does.
+  const MeshObstacles& plants(const RobotModel& robot, const Scene& scene) {
+    std::call_once(plants_made_, [&] {
+      const Vec3 base = robot.T_world_base(trolley).translation();
+      const Vec3 reach = Vec3::Constant(arm_reach_m(robot));
+      plants_ = MeshObstacles(plants_in(scene, Box(base - reach, base + reach)));
+    });
+    return plants_;
+  }
+
+ private:
+  std::once_flag plants_made_;
+  MeshObstacles plants_{{}};
+};
 
 MotionJudge::MotionJudge(const RobotModel& robot, const Scene& scene, double step_m)
     : step_rad_(step_m / kReach),
@@ -58,29 +102,42 @@ MotionJudge::MotionJudge(const RobotModel& robot, const Scene& scene, double ste
       scene_(scene),
       checker_(robot, structure_of(scene)) {}
 
-std::shared_ptr<const MotionJudge::Near> MotionJudge::plants_near(
-    const TrolleyState& trolley) const {
-  const std::scoped_lock lock(mutex_);
-  if (near_ == nullptr || near_->trolley.travel_m != trolley.travel_m ||
-      near_->trolley.lift_m != trolley.lift_m) {
-    const Vec3 base = robot_.T_world_base(trolley).translation();
-    const Vec3 reach = Vec3::Constant(arm_reach_m(robot_));
-    near_ = std::make_shared<const Near>(
-        Near{trolley, MeshObstacles(plants_in(scene_, Box(base - reach, base + reach)))});
+/// With the map in it.
+std::shared_ptr<MotionJudge::Stop> MotionJudge::stop_at(const TrolleyState& trolley,
+                                                        const Configuration& q,
+                                                        const VoxelMap* map) const {
+  const bool same_place = stop_ != nullptr && stop_->trolley.travel_m == trolley.travel_m &&
+                          stop_->trolley.lift_m == trolley.lift_m;
+  if (!same_place || (map != nullptr && map->resolution_m() != stop_->space.edge_m())) {
+    const double edge_m = map != nullptr ? map->resolution_m() : kCellM;
+    stop_ = std::make_shared<Stop>(*this, trolley, edge_m, q);
   }
-  return near_;
+  if (map != nullptr) stop_->space.add(*map);
+  return stop_;
 }
 
 Verdict MotionJudge::judge(const std::vector<Configuration>& waypoints, const TrolleyState& trolley,
                            const VoxelMap* map) const {
   const auto states = states_along(waypoints, step_rad_);
-  const std::shared_ptr<const Near> near = plants_near(trolley);
-  std::vector<Verdict> verdicts(states.size());
-  tbb::parallel_for(std::size_t{0}, states.size(), [&](std::size_t i) {
-    verdicts[i].collision = checker_.check(states[i], trolley, map).any();
-    verdicts[i].plant_contact = checker_.touches(states[i], trolley, near->plants);
+  if (states.empty()) return {};
+  std::shared_ptr<Stop> stop;
+  std::vector<Configuration> doubtful;
+  {
+    const std::scoped_lock lock(mutex_);
+    // This thread, while it waits for others, takes up no task that wants the lock too.
+    tbb::this_task_arena::isolate([&] {
+      stop = stop_at(trolley, states.front(), map);
+      std::copy_if(states.begin(), states.end(), std::back_inserter(doubtful),
+                   [&](const Configuration& q) { return !stop->space.surely_free(q); });
+    });
+  }
+  std::vector<Verdict> verdicts(doubtful.size());
+  tbb::parallel_for(std::size_t{0}, doubtful.size(), [&](std::size_t i) {
+    verdicts[i].collision = checker_.check(doubtful[i], trolley, map).any();
+    verdicts[i].plant_contact =
+        checker_.touches(doubtful[i], trolley, stop->plants(robot_, scene_));
   });
-  Verdict verdict;
+  Verdict verdict{stop->rest_touches, false};
   for (const auto& v : verdicts) {
     verdict.collision |= v.collision;
     verdict.plant_contact |= v.plant_contact;

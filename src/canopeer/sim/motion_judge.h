@@ -17,7 +17,8 @@ struct Verdict {
 };
 
 /// Looks at motions as they are executed, with FCL on the true geometry of robot, structure and
-/// plants.
+/// plants. FCL is asked about states only that a quick and careful look (NearSpace) does not call
+/// free. So verdicts are FCL's.
 class MotionJudge {
  public:
   /// `step_m`: between two states looked at no point of the arm moves farther. `robot` and `scene`
@@ -32,20 +33,16 @@ class MotionJudge {
   [[nodiscard]] const ExactChecker& checker() const { return checker_; }
 
  private:
-  /// The plants within the arm's reach from where the trolley stands: a long row as a whole would
-  /// not fit into memory.
-  struct Near {
-    TrolleyState trolley;
-    MeshObstacles plants;
-  };
-  [[nodiscard]] std::shared_ptr<const Near> plants_near(const TrolleyState& trolley) const;
+  struct Stop;
+  [[nodiscard]] std::shared_ptr<Stop> stop_at(const TrolleyState& trolley, const Configuration& q,
+                                              const VoxelMap* map) const;
 
   double step_rad_;
   const RobotModel& robot_;
   const Scene& scene_;
   ExactChecker checker_;
-  mutable std::mutex mutex_;  // of near_
-  mutable std::shared_ptr<const Near> near_;
+  mutable std::mutex mutex_;  // of stop_ and the space in it
+  mutable std::shared_ptr<Stop> stop_;
 };
 
 }  // namespace canopeer

@@ -39,7 +39,7 @@ void RobotTrack::stand(const Configuration& q, const TrolleyState& trolley) {
 
 void RobotTrack::move_arm(const JointPath& path, double start_s) {
   start_s_ = start_s;
-  arm_ = std::make_shared<const PathMotion>(path, robot_->limits());
+  arm_ = std::make_shared<const PathMotion>(path, *robot_);
 }
 
 double RobotTrack::drive(const TrolleyState& goal, double max_travel_m_s, double start_s) {

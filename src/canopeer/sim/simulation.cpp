@@ -108,7 +108,7 @@ class Simulation::SimArm : public Arm {
       if (!state_.robot.within_limits(q)) return fail("a waypoint is beyond the joint limits");
     }
     const double now_s = state_.time.now_s();
-    const double duration_s = motion_time(path, state_.robot.limits());
+    const double duration_s = motion_time(path, state_.robot);
     state_.change_track([&](RobotTrack& t) { t.move_arm(path, now_s); });
     // Judged now, on the map as it is when the motion starts.
     const auto pause = state_.time.pause();
@@ -207,7 +207,7 @@ class Simulation::SimCamera : public Camera {
     std::vector<StreamedFrame> frames;
     if (hz_ <= 0.0) return frames;
     const double now_s = state_.time.now_s();
-    const double latency_s = 0.0 /*TMP*/;
+    const double latency_s = state_.options.sensor.motion.latency_s;
     for (; static_cast<double>(next_) / hz_ + latency_s <= now_s; ++next_) {
       frames.push_back(frame_at(static_cast<double>(next_) / hz_));
       frames.back().arrived_s = static_cast<double>(next_) / hz_ + latency_s;
@@ -221,16 +221,15 @@ class Simulation::SimCamera : public Camera {
     const std::uint64_t number = state_.frames++;
     const RobotTrack track = state_.track();  // another motion may have begun by then
     StreamedFrame frame;
-    frame.time_s = exposed_s /*TMP*/;
+    frame.time_s = state_.sensor.stamp_of(exposed_s, number);
     frame.intrinsics = state_.options.camera;
     frame.T_world_camera = track.camera_at(frame.time_s);
     frame.twist = track.twist_at(frame.time_s);
     frame.q = track.arm_at(frame.time_s);
     frame.trolley = track.trolley_at(frame.time_s);
     frame.images = [this, track, exposed_s, number]() -> Expected<RgbdFrame> {
-      RgbdFrame TMP = state_.sensor.capture(track.camera_at(exposed_s), number);
-      TMP.time_s = exposed_s;
-      return TMP;
+      return state_.sensor.capture_moving([&track](double t_s) { return track.camera_at(t_s); },
+                                          exposed_s, number);
     };
     return frame;
   }

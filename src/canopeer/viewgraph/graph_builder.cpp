@@ -211,7 +211,8 @@ Configuration GraphBuilder::end_of(const Joint& joint) const {
 }
 
 void GraphBuilder::connect(const Joint& joint) {
-  graph_->connect(joint.a, joint.b, motion_time(begin_of(joint), end_of(joint), robot_->limits()));
+  graph_->connect(joint.a, joint.b,
+                  straight_motion_time(begin_of(joint), end_of(joint), *robot_, options_.sharp));
 }
 
 }  // namespace canopeer

@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "canopeer/base/compute_cost.h"
+#include "canopeer/robot/joint_path.h"
 #include "canopeer/viewgraph/view_graph.h"
 #include "canopeer/viewgraph/view_sampler.h"
 
@@ -26,6 +28,8 @@ struct GraphBuilderOptions {
   /// Told of every motion between two views that was proposed as an edge, and whether it was free.
   /// For measurements. Called in the thread that joins.
   std::function<void(const Configuration& from, const Configuration& to, bool free)> on_edge{};
+  /// Edges cost what their motions take under it; nothing: as fast as the joints can.
+  std::optional<ImageMotionLimit> sharp{};
 };
 
 /// Grows a view graph batch by batch ([Zaenker23], section III-C). It samples view poses and skips

@@ -9,9 +9,7 @@ CoveragePlanner::CoveragePlanner(const CoverageOptions& options) : options_(opti
 void CoveragePlanner::begin_segment(const PlanningScene& scene) {
   scene_ = scene;
   mover_ = std::make_unique<ViewMover>(scene, options_.motion);
-  const Box region_base =
-      transformed(scene.segment.sampling_region_world, scene.segment.T_world_base.inverse());
-  views_ = serpentine(scene.segment.workspace_base, region_base, options_.scan);
+  views_ = serpentine(scene.segment, options_.scan);
   next_ = 0;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "canopeer/planner/coverage/row_ahead.h"
+
 namespace canopeer {
 namespace {
 
@@ -14,49 +16,35 @@ std::vector<double> steps(double low, double high, double spacing) {
   return values;
 }
 
-/// Unit vectors of the passes: straight at the row, then tilted left, right, up, down.
-std::vector<Vec3> directions(const Vec3& forward, double tilt) {
-  const Vec3 up = Vec3::UnitZ();
-  const Vec3 side = forward.cross(up);
-  std::vector<Vec3> all = {forward};
-  for (const Vec3& aside : {Vec3(-side), side, up, Vec3(-up)}) {
-    all.push_back(std::cos(tilt) * forward + std::sin(tilt) * aside);
-  }
-  return all;
-}
-
 }  // namespace
 
 std::vector<FixedView> serpentine(const Box& workspace_base, const Box& sampling_region_base,
                                   const SerpentineOptions& options) {
-  const Vec3 apart = sampling_region_base.center() - workspace_base.center();
-  const int depth = std::abs(apart.x()) > std::abs(apart.y()) ? 0 : 1;
-  const int along = 1 - depth;
-  Vec3 forward = Vec3::Zero();
-  forward[depth] = apart[depth] > 0.0 ? 1.0 : -1.0;
-  const double plane =
-      std::clamp(sampling_region_base.center()[depth] - forward[depth] * options.row_distance_m,
-                 workspace_base.min()[depth], workspace_base.max()[depth]);
-
+  const RowAhead row = row_ahead(workspace_base, sampling_region_base, options.row_distance_m);
   std::vector<Vec3> positions;
   const auto heights = steps(workspace_base.min().z(), workspace_base.max().z(), options.spacing_m);
-  auto line = steps(workspace_base.min()[along], workspace_base.max()[along], options.spacing_m);
+  auto line =
+      steps(workspace_base.min()[row.along], workspace_base.max()[row.along], options.spacing_m);
   for (auto z = heights.rbegin(); z != heights.rend(); ++z) {
     for (const double at : line) {
       Vec3 p;
-      p[depth] = plane;
-      p[along] = at;
+      p[row.depth] = row.plane_m;
+      p[row.along] = at;
       p.z() = *z;
       positions.push_back(p);
     }
     std::reverse(line.begin(), line.end());
   }
   std::vector<FixedView> views;
-  for (const Vec3& direction : directions(forward, options.tilt_rad)) {
+  for (const Vec3& direction : scan_directions(row, options.tilt_rad)) {
     for (const Vec3& p : positions) views.push_back({p, p + options.look_distance_m * direction});
     std::reverse(positions.begin(), positions.end());
   }
   return views;
+}
+
+std::vector<FixedView> serpentine(const SegmentFrame& segment, const SerpentineOptions& options) {
+  return serpentine(segment.workspace_base, sampling_region_base(segment), options);
 }
 
 }  // namespace canopeer

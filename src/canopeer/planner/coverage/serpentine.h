@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "canopeer/geometry/pose.h"
+#include "canopeer/viewgraph/segment_frame.h"
 
 namespace canopeer {
 
@@ -21,11 +22,13 @@ struct FixedView {
 };
 
 /// A fixed scan of a segment: positions on a vertical plane of the workspace, line by line from the
-/// top, every other line backwards, facing the row; then the same again tilted left, right, up and
-/// down. The direction of the row is the horizontal axis along which the two boxes (both in the
-/// arm base frame) lie farthest apart.
+/// top, every other line backwards, facing the row (row_ahead.h); then the same again tilted left,
+/// right, up and down. Both boxes are in the arm base frame.
 [[nodiscard]] std::vector<FixedView> serpentine(const Box& workspace_base,
                                                 const Box& sampling_region_base,
+                                                const SerpentineOptions& options);
+/// The one of a segment.
+[[nodiscard]] std::vector<FixedView> serpentine(const SegmentFrame& segment,
                                                 const SerpentineOptions& options);
 
 }  // namespace canopeer

@@ -44,8 +44,10 @@ VmpPlanner::VmpPlanner(const VmpOptions& options) : options_(options) {}
 void VmpPlanner::begin_segment(const PlanningScene& scene) {
   scene_ = scene;
   graph_.clear();
+  GraphBuilderOptions builder = options_.builder;
+  builder.sharp = scene_.sharp;
   builder_ = std::make_unique<GraphBuilder>(
-      graph_, scene_.segment, *scene_.robot, *scene_.ik, options_.builder,
+      graph_, scene_.segment, *scene_.robot, *scene_.ik, builder,
       Rng(scene_.seed, "segment", static_cast<std::uint64_t>(scene_.segment.index)).bits());
   path_.clear();
   goal_.reset();
@@ -205,9 +207,8 @@ void VmpPlanner::insert_off_pose(const Configuration& q, WorkMeter& work) {
   if (path_.empty()) return;
   const NodeId next = path_.front().node;
   if (edge_clear(at_, next, work)) {
-    graph_.connect(
-        at_, next,
-        motion_time(q, endless().nearest(graph_.node(next).view.q, q), scene_.robot->limits()));
+    const Configuration to = endless().nearest(graph_.node(next).view.q, q);
+    graph_.connect(at_, next, straight_motion_time(q, to, *scene_.robot, scene_.sharp));
   } else {
     path_.clear();
   }

@@ -84,8 +84,8 @@ Frame view_frame(const ViewEvent& view, const TrolleyState& trolley,
   return frame_of(head);
 }
 
-Frame motion_frame(const MotionBegun& motion, const JointLimits& limits) {
-  const PathMotion timed(motion.path, limits);
+Frame motion_frame(const MotionBegun& motion, const RobotModel& robot) {
+  const PathMotion timed(motion.path, robot);
   const int points =
       std::max(2, static_cast<int>(std::ceil(motion.duration_s * kPointsPerSecond)) + 1);
   std::string octets;
@@ -99,7 +99,7 @@ Frame motion_frame(const MotionBegun& motion, const JointLimits& limits) {
   head["t_s"] = from_time(motion.start_s);
   head["duration_s"] = from_time(motion.duration_s);
   head["rate_hz"] = motion.duration_s > 0.0 ? (points - 1) / motion.duration_s : kPointsPerSecond;
-  head["joints"] = limits.lower.size();
+  head["joints"] = robot.dof();
   head["points"] = points;
   return frame_of(head, std::move(octets));
 }

@@ -6,7 +6,7 @@
 
 #include "canopeer/mission/event.h"
 #include "canopeer/replay/frame.h"
-#include "canopeer/robot/joint_limits.h"
+#include "canopeer/robot/robot_model.h"
 
 // What happens, one frame each.
 
@@ -18,7 +18,7 @@ namespace canopeer::frames {
 [[nodiscard]] Frame view_frame(const ViewEvent& view, const TrolleyState& trolley,
                                const CameraIntrinsics* camera);
 /// The path as it is timed, stretched to the duration that is expected.
-[[nodiscard]] Frame motion_frame(const MotionBegun& motion, const JointLimits& limits);
+[[nodiscard]] Frame motion_frame(const MotionBegun& motion, const RobotModel& robot);
 [[nodiscard]] Frame motion_end_frame(const MotionEvent& motion);
 [[nodiscard]] Frame work_frame(const std::vector<WorkItem>& work);
 [[nodiscard]] Frame log_frame(double t_s, std::string_view level, const std::string& text);

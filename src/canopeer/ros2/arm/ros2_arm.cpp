@@ -142,7 +142,7 @@ Expected<double> Ros2Arm::start(const JointPath& path) {
   auto may = may_begin(path);
   if (!may) return tl::unexpected(may.error());
   if (!*may) return 0.0;
-  const PathMotion motion(path, limits());
+  const PathMotion motion(path, parts_.robot, limits());
   if (dry_run_) return hold_back(MotionEnd::withheld, "a dry run", motion.duration_s());
   if (parts_.person.may_move) {
     const std::string what = "move the arm for " + figure(motion.duration_s(), 1) + " s";

@@ -142,12 +142,20 @@ Expected<TimedFrame> CameraFeed::capture() {
 
 std::vector<TimedFrame> CameraFeed::frames_since(Stamp stamp) {
   std::vector<TimedFrame> frames;
-  for (const auto& messages : intake_.after(stamp - offset_)) {
-    const auto known_until = poses_->known_until(frame_id(*messages));
-    if (!known_until || *known_until < messages->stamp + offset_) break;
+  for (const Messages& messages : messages_since(stamp)) {
     if (auto frame = decode(*messages)) frames.push_back(std::move(*frame));
   }
   return frames;
+}
+
+std::vector<CameraFeed::Messages> CameraFeed::messages_since(Stamp stamp) const {
+  std::vector<Messages> all = intake_.after(stamp - offset_);
+  const auto unknown = std::find_if(all.begin(), all.end(), [&](const Messages& messages) {
+    const auto known_until = poses_->known_until(frame_id(*messages));
+    return !known_until || *known_until < stamp_of(*messages);
+  });
+  all.erase(unknown, all.end());
+  return all;
 }
 
 std::int64_t CameraFeed::malformed() const {

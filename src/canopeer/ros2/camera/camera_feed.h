@@ -61,6 +61,16 @@ class CameraFeed {
   /// The last dozens are kept only: ask often.
   [[nodiscard]] std::vector<TimedFrame> frames_since(Stamp stamp);
 
+  /// The same before they are decoded.
+  using Messages = std::shared_ptr<const FrameMessages>;
+  [[nodiscard]] std::vector<Messages> messages_since(Stamp stamp) const;
+  /// When they were taken, by the clock of joint states.
+  [[nodiscard]] Stamp stamp_of(const FrameMessages& messages) const {
+    return messages.stamp + offset_;
+  }
+  [[nodiscard]] const std::string& frame_id(const FrameMessages& messages) const;
+  [[nodiscard]] Expected<TimedFrame> decode(const FrameMessages& messages);
+
   /// Where the camera was, by the clock of joint states.
   [[nodiscard]] Expected<Pose> pose_at(Stamp stamp, const std::string& frame_id) const {
     return poses_->at(stamp, frame_id);
@@ -80,8 +90,6 @@ class CameraFeed {
   /// The newest that came after `after` (camera's clock) and whose pose is known; null: none.
   [[nodiscard]] std::shared_ptr<const FrameMessages> newest_with_pose(Stamp after,
                                                                       std::string* why_none) const;
-  [[nodiscard]] Expected<TimedFrame> decode(const FrameMessages& messages);
-  [[nodiscard]] const std::string& frame_id(const FrameMessages& messages) const;
   [[nodiscard]] Error timeout_error(const std::string& why_none, Stamp from) const;
   [[nodiscard]] std::string silent_topics() const;
 

@@ -101,12 +101,11 @@ std::vector<Ros2Camera::Topic> Ros2Camera::topics(const Ros2CameraSettings& sett
 Expected<std::unique_ptr<Ros2Camera>> Ros2Camera::make(Node& node,
                                                        const Ros2CameraSettings& settings,
                                                        const CameraSurroundings& around) {
-  std::unique_ptr<Ros2Camera> camera(new Ros2Camera(around.tf_span_s));
+  std::unique_ptr<Ros2Camera> camera(new Ros2Camera(around));
   std::unique_ptr<FramePoses> poses =
       settings.pose == "tf" ? poses_of_tf(around.robot, camera->tf_, settings.world_frame,
                                           settings.optical_frame, around.trolley)
                             : poses_of_joints(around.robot, around.joints, around.trolley);
-  camera->now_ = around.now;
   camera->feed_ = std::make_unique<CameraFeed>(settings, feed_parts(node, settings, around),
                                                around.joints, std::move(poses));
   if (auto subscribed = camera->subscribe(node, settings); !subscribed) {
@@ -121,7 +120,7 @@ template <class Message>
 Expected<void> Ros2Camera::subscribe_as(Node& node, FramePart part, const std::string& topic,
                                         const Qos& qos) {
   auto made = node.subscribe<Message>(topic, qos, [this, part](Message&& message, const Guid&) {
-    feed_->intake().add(part, std::move(message), now_());
+    feed_->intake().add(part, std::move(message), around_.now());
   });
   if (!made) return tl::unexpected(made.error());
   subscriptions_.push_back(std::move(*made));
@@ -175,7 +174,67 @@ Expected<RgbdFrame> Ros2Camera::capture() {
     latencies_.waited_s.push_back(timed->waited_s);
     latencies_.decoded_s.push_back(timed->decoded_s);
   }
+  intrinsics_ = timed->frame.intrinsics;
   return std::move(timed->frame);
+}
+
+Expected<void> Ros2Camera::stream(double hz) {
+  const std::lock_guard lock(mutex_);
+  hz_ = hz;
+  if (const auto newest = around_.joints.newest()) streamed_ = *newest;
+  return {};
+}
+
+Expected<std::vector<StreamedFrame>> Ros2Camera::arrived() {
+  std::vector<StreamedFrame> frames;
+  double hz = 0.0;
+  Stamp since = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    hz = hz_;
+    since = streamed_;
+  }
+  if (hz <= 0.0) return frames;
+  // A camera of 30 Hz has every other frame at 33.4 ms: what is asked for is no exact period.
+  const Stamp apart = nanoseconds(0.8 / hz);
+  for (const CameraFeed::Messages& messages : feed_->messages_since(since)) {
+    const Stamp stamp = feed_->stamp_of(*messages);
+    if (stamp < since + apart) continue;
+    since = stamp;
+    if (auto frame = streamed(messages)) frames.push_back(std::move(*frame));
+  }
+  const std::lock_guard lock(mutex_);
+  streamed_ = std::max(streamed_, since);
+  return frames;
+}
+
+/// Nothing: where the camera was is not known.
+std::optional<StreamedFrame> Ros2Camera::streamed(const CameraFeed::Messages& messages) {
+  constexpr double kTwistSpan_s = 0.02;
+  const Stamp stamp = feed_->stamp_of(*messages);
+  const std::string& id = feed_->frame_id(*messages);
+  const auto pose = feed_->pose_at(stamp, id);
+  const auto before = feed_->pose_at(stamp - nanoseconds(kTwistSpan_s), id);
+  const auto q = around_.joints.at(stamp);
+  if (!pose || !before || !q) return std::nullopt;
+  StreamedFrame frame;
+  frame.time_s = around_.mission_time_s(stamp);
+  const std::chrono::duration<double> ago = FrameIntake::Steady::now() - messages->arrived;
+  frame.arrived_s = around_.mission_time_s(around_.now()) - ago.count();
+  frame.T_world_camera = *pose;
+  frame.twist = twist_between(*before, *pose, kTwistSpan_s);
+  frame.q = arm_configuration(around_.robot, around_.joints, *q);
+  frame.trolley = around_.trolley(stamp);
+  {
+    const std::lock_guard lock(mutex_);
+    frame.intrinsics = intrinsics_;
+  }
+  frame.images = [this, messages]() -> Expected<RgbdFrame> {
+    auto timed = feed_->decode(*messages);
+    if (!timed) return tl::unexpected(timed.error());
+    return std::move(timed->frame);
+  };
+  return frame;
 }
 
 Ros2Camera::Latencies Ros2Camera::latencies() const {

@@ -33,6 +33,9 @@ class Ros2Camera : public Camera {
 
   /// A frame from after the arm stood still. See CameraFeed::capture().
   [[nodiscard]] Expected<RgbdFrame> capture() override;
+  [[nodiscard]] Expected<void> stream(double hz) override;
+  /// Their twist is that of the last 20 ms, by the same poses.
+  [[nodiscard]] Expected<std::vector<StreamedFrame>> arrived() override;
   /// Frames from while it moves, too, not_before(), and what was counted.
   [[nodiscard]] CameraFeed& feed() { return *feed_; }
   /// Topics that a frame needs, with their types: what must be there.
@@ -50,7 +53,8 @@ class Ros2Camera : public Camera {
   [[nodiscard]] Latencies latencies() const;
 
  private:
-  explicit Ros2Camera(double tf_span_s) : tf_(tf_span_s) {}
+  explicit Ros2Camera(const CameraSurroundings& around) : tf_(around.tf_span_s), around_(around) {}
+  [[nodiscard]] std::optional<StreamedFrame> streamed(const CameraFeed::Messages& messages);
   [[nodiscard]] Expected<void> subscribe(Node& node, const Ros2CameraSettings& settings);
   [[nodiscard]] Expected<void> subscribe_part(Node& node, FramePart part, const std::string& topic,
                                               const Qos& qos);
@@ -59,10 +63,13 @@ class Ros2Camera : public Camera {
                                             const Qos& qos);
 
   TfBuffer tf_;
-  std::function<Stamp()> now_;
+  const CameraSurroundings around_;
   std::unique_ptr<CameraFeed> feed_;
-  mutable std::mutex mutex_;
+  mutable std::mutex mutex_;  // of what follows
   Latencies latencies_;
+  CameraIntrinsics intrinsics_;  // of the last frame
+  double hz_ = 0.0;              // of the stream
+  Stamp streamed_ = 0;           // the last one that was given out, or when the stream began
   std::vector<Subscription> subscriptions_;  // last: they stop first
 };
 

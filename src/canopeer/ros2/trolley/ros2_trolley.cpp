@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
+#include "canopeer/robot/arm_extent.h"
 #include "canopeer/ros2/time/figure.h"
 #include "canopeer/ros2/trolley/travel_registration.h"
 
@@ -34,7 +36,7 @@ Expected<void> Ros2Trolley::check_limits(const TrolleyState& goal) const {
 }
 
 /// Whoever drives past plants with the arm stretched out breaks something.
-Expected<void> Ros2Trolley::check_arm() const {
+Expected<void> Ros2Trolley::check_arm(ArmMay may) const {
   if (parts_.arm_fresh) {
     if (auto ok = parts_.arm_fresh(); !ok) return ok;
   }
@@ -49,29 +51,55 @@ Expected<void> Ros2Trolley::check_arm() const {
     nearest = name;
   }
   if (least <= kAtHome) return {};
+  if (may == ArmMay::look_at_the_row) {
+    if (keeps_to_aisle(parts_.robot, q)) return {};
+    return fail("it must not drive: the arm is neither at home (" + figure(least, 2) +
+                " rad from " + nearest +
+                " in one joint) nor within the aisle (known_free in the robot's file)");
+  }
   return fail("it must not move: the arm is not at home (" + figure(least, 2) + " rad from " +
               nearest + " in one joint); bring it there by hand and start again");
 }
 
 Expected<void> Ros2Trolley::move_to(const TrolleyState& goal) {
-  if (driver_->at(goal)) return {};
-  if (auto ok = check_limits(goal); !ok) return ok;
+  auto started = set_out(goal, 0.0, ArmMay::only_be_home);
+  if (!started) return tl::unexpected(started.error());
+  return finish();
+}
+
+Expected<double> Ros2Trolley::start(const TrolleyState& goal, double max_travel_m_s) {
+  return set_out(goal, max_travel_m_s, ArmMay::look_at_the_row);
+}
+
+Expected<void> Ros2Trolley::finish() {
+  if (!std::exchange(under_way_, false)) return {};
+  auto driven = driver_->finish();
+  if (on_moved_) on_moved_();
+  return driven;
+}
+
+/// 0 and not under way where it is there, or is not to move.
+Expected<double> Ros2Trolley::set_out(const TrolleyState& goal, double max_travel_m_s, ArmMay arm) {
+  under_way_ = false;
+  if (driver_->at(goal)) return 0.0;
+  if (auto ok = check_limits(goal); !ok) return tl::unexpected(ok.error());
   if (dry_run_) {
     parts_.person.tell("dry run: the trolley stays at " + in_words(state(), parts_.robot) +
                        " in place of " + in_words(goal, parts_.robot));
-    return {};
+    return 0.0;
   }
-  if (auto ok = check_arm(); !ok) return ok;
+  if (auto ok = check_arm(arm); !ok) return tl::unexpected(ok.error());
   if (parts_.person.may_move && settings_.kind != Ros2TrolleySettings::Kind::manual &&
       !parts_.person.may_move("drive the trolley to " + in_words(goal, parts_.robot)) &&
       !parts_.person.stop()) {
     return fail("it must not move, a person said; the next segment is elsewhere");
   }
-  if (parts_.person.stop()) return {};        // the next question ends the mission
-  if (auto ok = check_arm(); !ok) return ok;  // the answer may have taken minutes
-  auto driven = driver_->drive(goal);
-  if (on_moved_) on_moved_();
-  return driven;
+  if (parts_.person.stop()) return 0.0;  // the next question ends the mission
+  // The answer may have taken minutes.
+  if (auto ok = check_arm(arm); !ok) return tl::unexpected(ok.error());
+  auto started = driver_->start(goal, max_travel_m_s);
+  under_way_ = started.has_value();
+  return started;
 }
 
 Expected<void> Ros2Trolley::check_place(const VoxelMap* map, RgbdFrame& frame) {

@@ -25,6 +25,9 @@ class Ros2Trolley : public Trolley {
 
   [[nodiscard]] TrolleyState state() const override { return parts_.sense.now(); }
   [[nodiscard]] Expected<void> move_to(const TrolleyState& goal) override;
+  /// Besides home the arm may be where it keeps to the aisle (keeps_to_aisle()).
+  [[nodiscard]] Expected<double> start(const TrolleyState& goal, double max_travel_m_s) override;
+  [[nodiscard]] Expected<void> finish() override;
   /// What it needs and does not find, for people.
   [[nodiscard]] std::vector<std::string> missing() const { return driver_->missing(); }
 
@@ -45,7 +48,10 @@ class Ros2Trolley : public Trolley {
         driver_(std::move(driver)),
         on_moved_(std::move(on_moved)) {}
   [[nodiscard]] Expected<void> check_limits(const TrolleyState& goal) const;
-  [[nodiscard]] Expected<void> check_arm() const;
+  enum class ArmMay { only_be_home, look_at_the_row };
+  [[nodiscard]] Expected<void> check_arm(ArmMay may) const;
+  [[nodiscard]] Expected<double> set_out(const TrolleyState& goal, double max_travel_m_s,
+                                         ArmMay arm);
 
   TrolleyParts parts_;
   const Arm& arm_;
@@ -53,6 +59,7 @@ class Ros2Trolley : public Trolley {
   const bool dry_run_;
   std::unique_ptr<TrolleyDriver> driver_;
   std::function<void()> on_moved_;
+  bool under_way_ = false;
 };
 
 }  // namespace canopeer::ros

@@ -21,6 +21,9 @@ class FixedDriver : public TrolleyDriver {
     return fail("it is fixed at " + in_words(parts_.sense.now(), parts_.robot) +
                 " (ros2.trolley.kind), and the mission wants " + in_words(goal, parts_.robot));
   }
+  Expected<double> start(const TrolleyState& goal, double) override {
+    return tl::unexpected(drive(goal).error());
+  }
 
  private:
   TrolleyParts parts_;
@@ -28,6 +31,16 @@ class FixedDriver : public TrolleyDriver {
 };
 
 }  // namespace
+
+Expected<double> TrolleyDriver::start(const TrolleyState& goal, double max_travel_m_s) {
+  if (max_travel_m_s > 0.0) {
+    return fail(
+        "it cannot be told how fast to drive (ros2.trolley.kind); expected a trolley of kind "
+        "'trajectory', or missions that want no speed");
+  }
+  goal_ = goal;
+  return 0.0;
+}
 
 Expected<void> TrolleyParts::alive(double max_silence_s) const {
   if (auto ok = clock.check(); !ok) return ok;

@@ -20,6 +20,12 @@ class TrolleyDriver {
   [[nodiscard]] virtual std::vector<std::string> missing() const { return {}; }
   /// Goes there, and waits. A person who stops the run ends it early, which is no error.
   [[nodiscard]] virtual Expected<void> drive(const TrolleyState& goal) = 0;
+  /// The same in two calls, for those who look around on the way: sets out, along the row no faster
+  /// than `max_travel_m_s` (0: as fast as it can), and returns how long it will take, s; 0: not
+  /// known. The error: it cannot be told how fast.
+  [[nodiscard]] virtual Expected<double> start(const TrolleyState& goal, double max_travel_m_s);
+  /// Waits for the end of the drive started last.
+  [[nodiscard]] virtual Expected<void> finish() { return drive(goal_); }
   /// Whether it is at `goal` already.
   [[nodiscard]] virtual bool at(const TrolleyState& goal) const = 0;
   /// Whether the map should say where it stands, and the end of that doubt.
@@ -27,6 +33,9 @@ class TrolleyDriver {
   virtual void settle() {}
   /// The map does not show the place: a person looks again and says so. Waits for that.
   [[nodiscard]] virtual Expected<void> confirm_again() { return {}; }
+
+ private:
+  TrolleyState goal_;  ///< of start()
 };
 
 /// All outlive the driver.

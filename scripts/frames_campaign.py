@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+"""Runs of "frames on the way" (BENCHMARKS.md), into bench/campaigns/frames_on_the_way.csv.
+
+frames_campaign.py [--seeds A-B] [--rows TEXT] [--jobs N] [--table]
+  --seeds   which, e.g. 1-10 (default); runs whose line is in the file already are left out, so the same command
+            goes on after a kill and another session adds seeds
+  --rows    only rows whose name contains TEXT
+  --jobs    runs at a time, of one thread each (default: 2)
+  --table   run nothing; print the table of what is there, as Markdown
+"""
+
+import argparse
+import concurrent.futures
+import csv
+import json
+import math
+import os
+import pathlib
+import statistics
+import subprocess
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+FILE = ROOT / "bench" / "campaigns" / "frames_on_the_way.csv"
+PROGRAM = os.environ.get("CANOPEER", str(ROOT / "build" / "release" / "bin" / "canopeer"))
+FIGURES = ["fruits_total", "detected", "auc", "surface_f1", "false_positives", "volume_error_half_seen",
+           "centre_error_half_seen_m", "frames_fused", "frames_late", "frames_blurred", "frames_alike", "views",
+           "collisions", "plant_contacts", "mission_time_s", "sim_time_s", "wall_time_s"]
+KEYS = ["row", "seed"]
+
+
+def row(mission, planner, hz, exposure_ms=5, seeds=10):
+    name = f"{mission} {planner} {hz} Hz" + ("" if exposure_ms == 5 else f" {exposure_ms} ms")
+    settings = {"planner": planner, "time_per_segment_s": 10, "clock": "whole", "frames.on_the_way_hz": hz,
+                "camera.motion_model.exposure_ms": exposure_ms}
+    return {"name": name, "mission": mission, "settings": settings, "seeds": seeds}
+
+
+ROWS = [row("dense_1", planner, hz) for hz in (0, 5, 15) for planner in ("vmp", "random")]
+ROWS += [row("dense_1", planner, 5) for planner in ("rvp", "coverage", "sweep", "drive_by")]
+ROWS += [row("dense_1", "vmp", 5, exposure_ms, 3) for exposure_ms in (2, 10)]
+ROWS += [row("scenario_1", planner, hz) for hz in (0, 5) for planner in ("vmp", "random", "drive_by")]
+
+
+def done():
+    if not FILE.exists():
+        return []
+    with open(FILE, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def run(one, seed):
+    with tempfile.TemporaryDirectory() as out:
+        command = [PROGRAM, "run", one["mission"], "--quiet", "--no-replay", "--threads", "1", "--out", out,
+                   "--set", f"seed={seed}"]
+        for key, value in one["settings"].items():
+            command += ["--set", f"{key}={value}"]
+        subprocess.run(command, check=True, cwd=ROOT, stdout=subprocess.DEVNULL)
+        summary = json.loads(pathlib.Path(out, "summary.json").read_text())
+    return {"row": one["name"], "seed": seed, **{key: summary.get(key) for key in FIGURES}}
+
+
+def write(lines):
+    lines.sort(key=lambda line: ([r["name"] for r in ROWS].index(line["row"]), int(line["seed"])))
+    FILE.parent.mkdir(exist_ok=True)
+    temporary = FILE.with_suffix(".new")
+    with open(temporary, "w", newline="") as file:
+        writer = csv.DictWriter(file, KEYS + FIGURES, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(lines)
+    temporary.replace(FILE)
+
+
+def campaign(arguments):
+    first, last = (int(part) for part in arguments.seeds.split("-"))
+    lines = done()
+    there = {(line["row"], int(line["seed"])) for line in lines}
+    todo = [(one, seed) for seed in range(first, last + 1) for one in ROWS
+            if seed < first + one["seeds"] and arguments.rows in one["name"] and (one["name"], seed) not in there]
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+        runs = {pool.submit(run, one, seed): one["name"] for one, seed in todo}
+        for number, finished in enumerate(concurrent.futures.as_completed(runs), 1):
+            lines.append(finished.result())
+            write(lines)
+            print(f"{number} of {len(todo)}: {runs[finished]}", flush=True)
+
+
+def mean(values):
+    """With half the width of the 95 % interval of Student's t."""
+    if len(values) < 2:
+        return values[0], math.nan
+    t = {2: 12.7, 3: 4.30, 4: 3.18, 5: 2.78, 6: 2.57, 7: 2.45, 8: 2.36, 9: 2.31, 10: 2.26}.get(len(values), 2.1)
+    return statistics.mean(values), t * statistics.stdev(values) / math.sqrt(len(values))
+
+
+ROW_LENGTH_M = {"dense_1": 3.0, "scenario_1": 3.0}  # between the first stop and the last, both sides looked at
+
+
+def table():
+    lines = done()
+    print("| world, planner, frames | seeds | found | of | AUC | surface F1 | false | fused / late / blurred | row m/h |")
+    print("|---|---|---|---|---|---|---|---|---|")
+    for one in ROWS:
+        mine = [line for line in lines if line["row"] == one["name"]]
+        if not mine:
+            continue
+
+        def of(key):
+            return [float(line[key]) for line in mine if line[key] not in ("", "None")]
+
+        def text(key, digits):
+            centre, half = mean(of(key))
+            return f"{centre:.{digits}f} ± {half:.{digits}f}"
+
+        frames = [of(f"frames_{what}") for what in ("fused", "late", "blurred")]
+        counts = " / ".join(f"{statistics.mean(f):.0f}" for f in frames) if frames[0] else "–"
+        speed = 3600 * ROW_LENGTH_M[one["mission"]] / statistics.mean(of("mission_time_s"))
+        print(f"| {one['name']} | {len(mine)} | {text('detected', 1)} | {statistics.mean(of('fruits_total')):.0f} | "
+              f"{text('auc', 3)} | {text('surface_f1', 3)} | {statistics.mean(of('false_positives')):.1f} | {counts} | "
+              f"{speed:.0f} |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--seeds", default="1-10")
+    parser.add_argument("--rows", default="")
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--table", action="store_true")
+    arguments = parser.parse_args()
+    table() if arguments.table else campaign(arguments)
+
+
+main()
