@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstdio>
 
 #include "canopeer/base/atomic_file.h"
 #include "canopeer/mission/steering_desk.h"
 #include "canopeer/record/record_file.h"
+#include "canopeer/sensing/pose_track.h"
 
 namespace canopeer {
 namespace {
@@ -49,6 +51,7 @@ TEST_F(RunTest, LeavesItsResultsInItsDirectory) {
   EXPECT_FALSE((*run)->interrupted());
   EXPECT_GT(summary->views, 1);
   EXPECT_EQ(summary->fruits_total, 47);
+  EXPECT_FALSE(summary->time_offset_s.has_value());  // no frames on the way
   for (const char* file : {"record", "summary.json", "timeline.csv", "fruits.csv", "fruits.ply",
                            "map.ot", "ground_truth.csv", "report.html"}) {
     EXPECT_TRUE(fs::exists(out_ / file)) << file;
@@ -134,6 +137,80 @@ TEST_F(RunTest, OnASiteWithMannersTakesThemOn) {
   EXPECT_EQ((*run)->record().steering.back().by, "the site");
   EXPECT_GT(seen->events, 2);
   EXPECT_EQ(results, out_);
+}
+
+/// Stamps its frames on the way late, and so has the pose of where it went meanwhile.
+class LateCamera : public Camera {
+ public:
+  static constexpr double kLate_s = 0.03;
+  explicit LateCamera(Camera& camera) : camera_(camera) {}
+  Expected<RgbdFrame> capture() override { return camera_.capture(); }
+  Expected<void> stream(double hz) override { return camera_.stream(hz); }
+  Expected<std::vector<StreamedFrame>> arrived() override {
+    auto frames = camera_.arrived();
+    if (!frames) return frames;
+    for (StreamedFrame& f : *frames) {
+      const PoseTrack track({{f.time_s, f.T_world_camera, f.twist}});
+      f.time_s += kLate_s;
+      f.T_world_camera = *track.at(f.time_s);
+      f.images = [images = f.images, t = f.time_s, T = f.T_world_camera]() -> Expected<RgbdFrame> {
+        auto frame = images();
+        if (!frame) return frame;
+        frame->time_s = t;
+        frame->T_world_camera = T;
+        return frame;
+      };
+    }
+    return frames;
+  }
+
+ private:
+  Camera& camera_;
+};
+
+class LateSite : public TightLipped {
+ public:
+  explicit LateSite(std::unique_ptr<Site> site)
+      : TightLipped(std::move(site)), camera_(*TightLipped::ports().camera) {}
+  Ports ports() override {
+    Ports ports = TightLipped::ports();
+    ports.camera = &camera_;
+    return ports;
+  }
+
+ private:
+  LateCamera camera_;
+};
+
+TEST_F(RunTest, SaysWhetherPoseAndImageAgreeWhereFramesComeOnTheWay) {
+  ASSERT_TRUE(registries_.sites
+                  .add("late", "a camera whose stamps are late",
+                       [](const SiteRequest& request) -> Expected<std::unique_ptr<Site>> {
+                         auto site = SiteRegistry::built_in().make("simulation", request);
+                         if (!site) return site;
+                         return std::make_unique<LateSite>(std::move(*site));
+                       })
+                  .has_value());
+  request_.overrides = {
+      {"time_per_segment_s", "15"}, {"frames.on_the_way_hz", "10"}, {"frames.max_blur_px", "0"}};
+  for (const std::string site : {"simulation", "late"}) {
+    std::vector<std::string> said;
+    request_.site = site;
+    request_.callbacks.on_message = [&](const std::string& text) { said.push_back(text); };
+    const auto run = Run::compose(request_, registries_, out_);
+    ASSERT_TRUE(run.has_value()) << run.error().message;
+    const auto summary = (*run)->execute();
+    ASSERT_TRUE(summary.has_value()) << summary.error().message;
+    ASSERT_TRUE(summary->time_offset_s.has_value());
+    std::printf("%s: %.1f ms (se %.1f), %.1f mm, %.4f rad\n", site.c_str(),
+                1e3 * *summary->time_offset_s, 1e3 * *summary->time_offset_se_s,
+                1e3 * summary->hand_eye_translation_m.value_or(-1.0),
+                summary->hand_eye_rotation_rad.value_or(-1.0));
+    for (const auto& text : said) std::printf("%s\n", text.c_str());
+    const bool late = site == "late";
+    EXPECT_NEAR(*summary->time_offset_s, late ? -LateCamera::kLate_s : 0.0, 0.008);
+    EXPECT_EQ(said.size(), late ? 1U : 0U);
+  }
 }
 
 TEST_F(RunTest, NamesTheSitesThereAreWhenAskedForAnother) {

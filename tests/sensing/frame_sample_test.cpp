@@ -52,7 +52,9 @@ TEST(FrameSample, KeepsAFewFramesOfARunOfAnyLengthFromAllOverIt) {
     std::size_t moving = 0;
     for (std::size_t i = 0; i < frames.size(); ++i) {
       moving += frames[i].moving;
-      if (i > 0) EXPECT_LT(frames[i - 1].time_s, frames[i].time_s);
+      if (i > 0) {
+        EXPECT_LT(frames[i - 1].time_s, frames[i].time_s);
+      }
     }
     EXPECT_GT(moving, frames.size() / 3);
     EXPECT_LT(moving, frames.size());
