@@ -5,6 +5,7 @@
 #include "canopeer/base/atomic_file.h"
 #include "canopeer/mission/mission_time.h"
 #include "canopeer/robot/path_timing.h"
+#include "canopeer/robot/straight_timing.h"
 #include "mission_fixture.h"
 
 // Frames taken while the arm or the trolley moves, and the clock that never stops.
