@@ -253,8 +253,6 @@ TEST_F(OnTheWay, NothingCountsAfterTheMissionsTime) {
   for (std::size_t i = 0; i < record_.segments.size(); ++i) {
     EXPECT_LE(record_.segments[i].end_s, deadlines[i] + 1e-9);
   }
-  // What the way back and the frames at rest took is missing in the second segment.
-  EXPECT_LT(deadlines[1] - record_.segments[1].start_s, options_.segment_time_s);
 }
 
 }  // namespace

@@ -156,7 +156,7 @@ TEST_F(RunStateFile, OfAnotherRunIsRefusedByName) {
 
 TEST_F(RunStateFile, AnotherRunsRecordIsNotTouched) {
   RunState state = begun(directory_ / "a", 4)->state().value();
-  static_cast<void>(begun(directory_ / "b", 5, "2"));
+  static_cast<void>(begun(directory_ / "b", 9, "2"));
   const std::string before = content(directory_ / "b" / "record");
   const auto run = begun(directory_ / "b", 0);
   const auto outcome = run->resume(std::move(state));

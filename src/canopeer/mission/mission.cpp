@@ -229,7 +229,6 @@ Expected<void> Mission::State::go_home() {
   if (!end) return tl::unexpected(end.error());
   // What was withheld stays so in a dry run: on with the next segment, from where the arm is.
   if (*end != MotionEnd::arrived && *end != MotionEnd::withheld) return {};  // once more
-  segment->rest();
   const bool last = cursor.segment + 1 == segments();
   cursor.next = last || cursor.stopped ? Step::done : Step::drive;
   if (cursor.next == Step::drive) ++cursor.segment;
@@ -293,7 +292,12 @@ Expected<MissionState> Mission::state() const {
   if (s.options.background_workers > 0 || !s.ports.clock->simulated()) {
     return fail("only a mission in simulated time can go on from a state");
   }
-  MissionState state{s.cursor, {}, s.traveller.state(), s.perception.map(), s.perception.fruits(),
+  MissionState state{s.cursor,
+                     {},
+                     s.traveller.state(),
+                     s.perception.map(),
+                     s.perception.unsettled(),
+                     s.perception.fruits(),
                      {}};
   if (s.time) state.meters = s.time->meters();
   if (s.segment) {
@@ -326,7 +330,7 @@ Expected<void> Mission::restore(MissionState state) {
 Expected<void> Mission::State::restore(MissionState state) {
   cursor = state.cursor;
   traveller.restore(std::move(state.traveller));
-  perception.restore(std::move(state.map), std::move(state.fruits));
+  perception.restore(std::move(state.map), std::move(state.fruits), std::move(state.unsettled));
   if (auto ok = prepare(); !ok) return ok;
   time->set_meters(state.meters);
   RunBegun begun{time->now_s(), segments(), options.segment_time_s, true, std::nullopt};

@@ -24,7 +24,8 @@ struct MissionCursor {
   double standing_since_s = 0.0;
   double last_standing_s = 0.0;  ///< before the last motion
   double last_motion_s = 0.0;
-  double held_s = 0.0;              ///< of the run, by steering
+  double held_s = 0.0;           ///< of the run, by steering
+  double seen_distance_m = 0.0;  ///< median of what the last frame on the way showed; 0: none yet
   std::int32_t missed_motions = 0;  ///< in a row that did not arrive
   std::string needs_person;         ///< why the arm cannot go on by itself; told to steering once
   bool skip = false;                ///< told to end this segment
@@ -34,7 +35,7 @@ struct MissionCursor {
   template <typename Archive>
   void serialize(Archive& archive) {
     archive(next, segment, views, segment_start_s, standing_since_s, last_standing_s, last_motion_s,
-            held_s, missed_motions, needs_person, skip, stopped, said);
+            held_s, seen_distance_m, missed_motions, needs_person, skip, stopped, said);
   }
 };
 

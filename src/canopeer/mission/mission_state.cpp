@@ -9,15 +9,16 @@ namespace canopeer {
 
 std::string mission_state_bytes(const MissionState& state) {
   return state_bytes(state.cursor, state.meters, state.traveller, cmap_bytes(state.map),
-                     state.fruits.state(), state.planner);
+                     state.unsettled, state.fruits.state(), state.planner);
 }
 
 Expected<MissionState> parse_mission_state(std::string_view bytes, const MissionOptions& options) {
-  MissionState state{MissionCursor(), {}, {}, VoxelMap(options.map), FruitMap(options.fruit), {}};
+  MissionState state{MissionCursor(),         {}, {}, VoxelMap(options.map), {},
+                     FruitMap(options.fruit), {}};
   std::string map;
   std::string fruits;
-  auto read = read_state_bytes(bytes, state.cursor, state.meters, state.traveller, map, fruits,
-                               state.planner);
+  auto read = read_state_bytes(bytes, state.cursor, state.meters, state.traveller, map,
+                               state.unsettled, fruits, state.planner);
   if (!read) return tl::unexpected(read.error());
   if (state.cursor.next > MissionCursor::Step::done ||
       state.cursor.said > SteeringWord::Kind::stop || state.cursor.views < 0) {

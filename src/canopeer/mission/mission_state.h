@@ -21,6 +21,7 @@ struct MissionState {
   Timekeeper::Meters meters;
   Traveller::State traveller;
   VoxelMap map;
+  std::vector<BlockKey> unsettled;  ///< blocks of the map that nobody was told of yet
   FruitMap fruits;
   std::optional<std::string> planner;  ///< as Planner::state() gives it; none before a segment
 };

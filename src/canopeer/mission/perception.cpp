@@ -137,12 +137,12 @@ void Perception::update_fruits(const RgbdFrame& frame, const Mask& fruit) {
   fruits_.update();
 }
 
-void Perception::restore(VoxelMap map, FruitMap fruits) {
+void Perception::restore(VoxelMap map, FruitMap fruits, std::vector<BlockKey> unsettled) {
   map_ = std::move(map);
   fruits_ = std::move(fruits);
   field_.reset();
   frontiers_.reset();
-  unsettled_.clear();
+  unsettled_ = std::move(unsettled);
 }
 
 }  // namespace canopeer

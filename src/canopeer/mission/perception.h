@@ -77,8 +77,10 @@ class Perception {
   [[nodiscard]] const DistanceField& field() const { return *field_; }
   [[nodiscard]] const FruitMap& fruits() const { return fruits_; }
 
+  /// Blocks that frames changed since the last settling, sorted.
+  [[nodiscard]] const std::vector<BlockKey>& unsettled() const { return unsettled_; }
   /// Goes on from what was known then; call move_field() after it.
-  void restore(VoxelMap map, FruitMap fruits);
+  void restore(VoxelMap map, FruitMap fruits, std::vector<BlockKey> unsettled = {});
 
  private:
   MissionOptions options_;

@@ -109,8 +109,9 @@ JointPath ArmMover::without_needless_stops(const std::vector<Configuration>& way
                                            const CollisionChecker& checker) {
   if (waypoints.size() < 3) return {waypoints, {}, sharp_};
   int states = 0;
-  JointPath path = time_.timer().time(
-      "arm", [&] { return round_corners({waypoints, {}, sharp_}, robot_, checker, states); });
+  JointPath path = time_.timer().time("arm", [&] {
+    return round_corners({waypoints, {}, sharp_}, robot_, checker, states);
+  });
   WorkMeter work;
   work.add(Work::motion_plan, states);
   time_.pay(work);

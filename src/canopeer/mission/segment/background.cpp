@@ -25,7 +25,7 @@ void Background::resume() {
 
 void Background::time_passes(double seconds) {
   if (workers_.empty()) {
-    planner_.grow(seconds, work_);
+    if (!quiet_) planner_.grow(seconds, work_);
     return;
   }
   const double now_s = clock_.now_s();

@@ -38,7 +38,7 @@ class Background {
   void resume();
 
   /// So much mission time goes by: a motion, computing, waiting. On the wall clock the time that
-  /// really went by is what the planner is told.
+  /// really went by is what the planner is told. While it rests it is told nothing.
   void time_passes(double seconds);
 
   /// Calls `f(planner)`; workers go on with the tasks they have.

@@ -31,7 +31,7 @@ double median_depth_m(const DepthImage& depth) {
 
 FramesOnTheWay::FramesOnTheWay(const RobotModel& robot, const Ports& ports,
                                const MissionOptions& options, Perception& perception,
-                               Timekeeper& time, EventHub& events, const MissionCursor& cursor)
+                               Timekeeper& time, EventHub& events, MissionCursor& cursor)
     : robot_(robot),
       ports_(ports),
       options_(options),
@@ -55,7 +55,8 @@ Expected<void> FramesOnTheWay::set_out(const std::string& during) {
   during_ = during;
   T_last_ = robot_.T_world_base(ports_.trolley->state()) *
             robot_.T_base_camera(ports_.arm->configuration());
-  if (distance_m_ <= 0.0) distance_m_ = options_.on_the_way.sharp_distance_m;
+  double& distance_m = cursor_.seen_distance_m;
+  if (distance_m <= 0.0) distance_m = options_.on_the_way.sharp_distance_m;
   if (auto ok = ports_.camera->stream(options_.on_the_way.hz); !ok) {
     return fail_in("camera", ok.error());
   }
@@ -167,7 +168,7 @@ bool FramesOnTheWay::alike(const StreamedFrame& frame) const {
 
 bool FramesOnTheWay::too_blurred(const StreamedFrame& frame, double* blur_px) const {
   const OnTheWayOptions& o = options_.on_the_way;
-  *blur_px = o.exposure_s * image_speed(frame.twist, frame.intrinsics, distance_m_);
+  *blur_px = o.exposure_s * image_speed(frame.twist, frame.intrinsics, cursor_.seen_distance_m);
   return o.max_blur_px > 0.0 && *blur_px > o.max_blur_px;
 }
 
@@ -196,7 +197,9 @@ Expected<void> FramesOnTheWay::take_in(const StreamedFrame& streamed) {
   if (!seen) return tl::unexpected(seen.error());
   free_s_ += work.seconds(options_.costs);
   time_.aside(work);
-  if (const double median_m = median_depth_m(frame->depth); median_m > 0.0) distance_m_ = median_m;
+  if (const double median_m = median_depth_m(frame->depth); median_m > 0.0) {
+    cursor_.seen_distance_m = median_m;
+  }
   ++counts_.fused;
   ++untold_;
 

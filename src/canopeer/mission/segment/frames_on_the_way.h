@@ -26,10 +26,9 @@ namespace canopeer {
 /// takes.
 class FramesOnTheWay {
  public:
-  /// All outlive it; `cursor` says where the mission is.
+  /// All outlive it; `cursor` says where the mission is, and is told how far away things are.
   FramesOnTheWay(const RobotModel& robot, const Ports& ports, const MissionOptions& options,
-                 Perception& perception, Timekeeper& time, EventHub& events,
-                 const MissionCursor& cursor);
+                 Perception& perception, Timekeeper& time, EventHub& events, MissionCursor& cursor);
   ~FramesOnTheWay();
   FramesOnTheWay(const FramesOnTheWay&) = delete;
   FramesOnTheWay& operator=(const FramesOnTheWay&) = delete;
@@ -71,7 +70,7 @@ class FramesOnTheWay {
   Perception& perception_;
   Timekeeper& time_;
   EventHub& events_;
-  const MissionCursor& cursor_;
+  MissionCursor& cursor_;
   SelfFilter self_filter_;
   Planning planning_;
   // Of the motion under way:
@@ -80,7 +79,6 @@ class FramesOnTheWay {
   std::deque<StreamedFrame> waiting_;
   double free_s_ = 0.0;             ///< when what was begun is done, by the compute table
   Pose T_last_ = Pose::Identity();  ///< of the camera, when a frame was taken in last
-  double distance_m_ = 0.0;         ///< median of what the last frame showed
   int untold_ = 0;                  ///< frames the planner has not heard of
   FrameCounts counts_;
   StageTimer stages_;

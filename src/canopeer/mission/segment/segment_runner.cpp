@@ -133,6 +133,7 @@ Expected<void> SegmentRunner::step() {
 }
 
 Expected<void> SegmentRunner::end() {
+  rest();
   const double latest_s = tools_.cursor.segment_start_s + budget_s();
   return tools_.events.emit(SegmentEnded{index_, std::min(tools_.time.now_s(), latest_s)});
 }
@@ -150,6 +151,7 @@ std::shared_ptr<const MapSnapshot> SegmentRunner::snapshot() const {
 
 /// A frame from where the arm stands: fused, told to everybody and to the planner, paid for.
 Expected<void> SegmentRunner::observe(TargetKind kind, std::optional<std::int64_t> predicted) {
+  if (mission_is_over()) return {};
   WorkMeter work;
   auto look = tools_.camera.look(frame_.sampling_region_world, work, tools_.time.timer());
   if (!look) return tl::unexpected(look.error());

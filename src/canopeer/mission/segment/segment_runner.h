@@ -49,13 +49,11 @@ class SegmentRunner {
   /// What is said when it begins.
   [[nodiscard]] SegmentEvent event() const;
   /// A motion under way when the time was up has been finished; its frame belongs to the
-  /// transition.
+  /// transition. The planner's background work stops: what it knows is about to be forgotten.
   [[nodiscard]] Expected<void> end();
   [[nodiscard]] Expected<MotionEnd> go_home(const Configuration& home);
-  /// The planner's background work stops.
-  void rest() { tools_.time.background().rest(); }
-
  private:
+  void rest() { tools_.time.background().rest(); }
   void stand_at(const TrolleyState& trolley);
   [[nodiscard]] double budget_s() const;
   /// What is seen now does not count any more.
