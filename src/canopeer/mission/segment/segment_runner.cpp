@@ -78,7 +78,8 @@ Expected<void> SegmentRunner::resume(std::string_view planner_state) {
   auto restored = tools_.time.background().alone(
       [&](Planner& planner) { return planner.restore(scene, planner_state); });
   if (!restored) return fail_in("planner", restored.error());
-  tools_.time.background().go();
+  // Behind its last decision a segment has nothing to grow for.
+  if (tools_.cursor.next == MissionCursor::Step::decide) tools_.time.background().go();
   return {};
 }
 
