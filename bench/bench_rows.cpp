@@ -49,7 +49,8 @@ class Collector : public benchmark::ConsoleReporter {
     const double iterations =
         static_cast<double>(std::max<benchmark::IterationCount>(1, run.iterations));
     Measured one;
-    const bool by_the_clock = run.run_name.time_type == "real_time";
+    const bool by_the_clock =
+        run.run_name.time_type == "real_time" || run.run_name.time_type == "manual_time";
     one.seconds =
         (by_the_clock ? run.real_accumulated_time : run.cpu_accumulated_time) / iterations;
     one.items_per_s = 1 / one.seconds;

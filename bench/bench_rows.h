@@ -7,8 +7,8 @@
 namespace canopeer {
 
 // One row of a benchmark: what a Google Benchmark run of this program measured, beside its
-// baseline. Times are CPU time of one iteration (by the clock in runs with UseRealTime()), the best
-// of all repetitions, because the machines are shared.
+// baseline. Times are CPU time of one iteration (by the clock in runs with UseRealTime(), what the
+// run says with UseManualTime()), the best of all repetitions, because the machines are shared.
 struct BenchRow {
   std::string name{};  // "map.fuse_projective"
   std::string ours{};  // the run's name as Google Benchmark prints it: "fuse_next", "view_cast/63"
