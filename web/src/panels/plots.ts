@@ -117,6 +117,11 @@ function decades(min: number, max: number): number[] {
   return Array.from({ length: Math.floor((high - low) / step) + 1 }, (_, i) => 10 ** (low + i * step));
 }
 
+/** How many fruits were known after each frame, at a view or on the way, by time. */
+export function fruitCourse({ views, looks }: Timeline): { t: number; fruits: number }[] {
+  return [...views, ...looks].map(({ t, fruits }) => ({ t, fruits })).sort((a, b) => a.t - b.t);
+}
+
 const kTimeSteps = [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600];
 
 /** Fruits found, and gain promised and realised, view by view. */
@@ -167,18 +172,15 @@ export class Plots {
     const views = timeline.views;
     const end = timeline.duration;
     const counted = timeline.truth?.fruits.filter((f) => f.counted).length ?? null;
-    const as = [timeline, views.length, end.toFixed(1), counted];
+    const as = [timeline, views.length, timeline.looks.length, end.toFixed(1), counted];
     if (!same(as, this.shownAs)) {
       this.shownAs = as;
-      const x = views.map((v) => v.t);
+      const course = fruitCourse(timeline);
       // A last point, so that the line reaches the newest moment.
-      const ends = (list: Series, last: number | null): Series => [...list, last];
-      const xs = [...x, Math.max(end, x.at(-1) ?? 0)];
-      this.fruits.setData(
-        xs,
-        [ends(views.map((v) => v.fruits), views.at(-1)?.fruits ?? null), xs.map(() => counted)],
-        end,
-      );
+      const last = course.at(-1);
+      const xs = [...course.map((c) => c.t), Math.max(end, last?.t ?? 0)];
+      this.fruits.setData(xs, [[...course.map((c) => c.fruits), last?.fruits ?? null], xs.map(() => counted)], end);
+      const x = views.map((v) => v.t);
       const positive = (v: number | null) => (v === null ? null : Math.max(v, 10));
       this.gain.setData(x, [views.map((v) => positive(v.predicted)), views.map((v) => positive(v.realised))], end);
     }
