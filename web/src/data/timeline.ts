@@ -126,6 +126,11 @@ export class Timeline {
     return upperBound(this.lookTimes, t);
   }
 
+  /** How many fruits were known after each frame, at a view or on the way, by time. */
+  fruitCourse(): { t: number; fruits: number }[] {
+    return [...this.views, ...this.looks].map(({ t, fruits }) => ({ t, fruits })).sort((a, b) => a.t - b.t);
+  }
+
   view(number: number): View | null {
     const guess = this.views[number];
     if (guess?.view === number) return guess;

@@ -117,11 +117,6 @@ function decades(min: number, max: number): number[] {
   return Array.from({ length: Math.floor((high - low) / step) + 1 }, (_, i) => 10 ** (low + i * step));
 }
 
-/** How many fruits were known after each frame, at a view or on the way, by time. */
-export function fruitCourse({ views, looks }: Timeline): { t: number; fruits: number }[] {
-  return [...views, ...looks].map(({ t, fruits }) => ({ t, fruits })).sort((a, b) => a.t - b.t);
-}
-
 const kTimeSteps = [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600];
 
 /** Fruits found, and gain promised and realised, view by view. */
@@ -175,7 +170,7 @@ export class Plots {
     const as = [timeline, views.length, timeline.looks.length, end.toFixed(1), counted];
     if (!same(as, this.shownAs)) {
       this.shownAs = as;
-      const course = fruitCourse(timeline);
+      const course = timeline.fruitCourse();
       // A last point, so that the line reaches the newest moment.
       const last = course.at(-1);
       const xs = [...course.map((c) => c.t), Math.max(end, last?.t ?? 0)];
