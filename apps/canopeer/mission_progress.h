@@ -1,6 +1,6 @@
 #pragma once
 
-#include <string>
+#include <cstddef>
 
 #include "canopeer/mission/listeners.h"
 #include "progress_bar.h"
@@ -14,11 +14,13 @@ class MissionProgress : public Watcher {
   void on_event(const Event& event) override;
 
  private:
-  void show(const ViewEvent& view);
+  void show(int segment, double t_s, std::size_t fruits);
 
   ProgressBar bar_;
   RunBegun run_;
   SegmentEvent segment_;
+  int views_ = 0;
+  int frames_ = 0;  ///< on the way, since the program began
 };
 
 }  // namespace canopeer::app

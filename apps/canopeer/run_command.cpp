@@ -67,6 +67,16 @@ std::unique_ptr<Run> compose(const RunArguments& arguments, const std::atomic<bo
                        kBadInput);
 }
 
+/// What became of frames on the way, where they were wanted.
+void print_frames(const Summary& s) {
+  if (!s.frames_fused) return;
+  std::printf("on the way        %d frames taken in, %d late, %d blurred, %d alike",
+              *s.frames_fused, s.frames_late.value_or(0), s.frames_blurred.value_or(0),
+              s.frames_alike.value_or(0));
+  if (s.frames_unread.value_or(0) > 0) std::printf(", %d unread", *s.frames_unread);
+  std::printf("\n");
+}
+
 /// The figures people ask for first.
 void print_summary(const Summary& s, const std::filesystem::path& out) {
   if (s.fruits_total) {
@@ -76,12 +86,13 @@ void print_summary(const Summary& s, const std::filesystem::path& out) {
   } else {
     std::printf("fruits found      %d\n", s.fruits_reported);
   }
+  std::printf("views             %d in %.0f s of mission time (%.1f s of wall time)\n", s.views,
+              s.sim_time_s, s.wall_time_s);
+  print_frames(s);
   std::printf(
-      "views             %d in %.0f s of mission time (%.1f s of wall time)\n"
       "collisions        %d, motions that touched unseen leaves %d\n"
       "report            %s\n",
-      s.views, s.sim_time_s, s.wall_time_s, s.collisions, s.plant_contacts,
-      (out / "report.html").c_str());
+      s.collisions, s.plant_contacts, (out / "report.html").c_str());
 }
 
 void print_profile(const StageTimer& timer, double wall_s) {

@@ -36,6 +36,21 @@ TEST(ViewCommand, ARunLeavesAReplayThatChangesNothingElse) {
   EXPECT_EQ(read_file(folder / "without" / "report.html")->find("8765/#t="), std::string::npos);
 }
 
+TEST(ViewCommand, ARunSaysWhatBecameOfFramesOnTheWay) {
+  const TemporaryDirectory folder;
+  const auto run = canopeer({"run", "smoke", "--time-per-segment", "3", "--set",
+                             "frames.on_the_way_hz=5", "--out", (folder / "run").string()});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out.find("\non the way        "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find(" frames taken in, "), std::string::npos) << run.out;
+  EXPECT_NE(run.err.find(" on the way  "), std::string::npos) << run.err;
+  const std::string page = *read_file(folder / "run" / "report.html");
+  EXPECT_NE(page.find("<h2>Frames on the way</h2>"), std::string::npos);
+  const auto without = canopeer({"run", "smoke", "--time-per-segment", "1", "--no-replay", "--out",
+                                 (folder / "without").string()});
+  EXPECT_EQ(without.out.find("on the way"), std::string::npos);
+}
+
 TEST(ViewCommand, WatchingChangesNothingEither) {
   if (!page_is_built_in()) GTEST_SKIP() << "built without Node";
   const TemporaryDirectory folder;

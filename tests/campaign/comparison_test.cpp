@@ -85,6 +85,62 @@ TEST(Comparison, UsesWhatIsThereOfACampaignThatIsNotDone) {
   EXPECT_FALSE(pair.p_wilcoxon.has_value());
 }
 
+/// Two segments with a transition between them, a view in each, a frame on the way between.
+RunFiles made_up_files(double mission_time_s) {
+  RunFiles files;
+  files.record.header.mission_time_s = mission_time_s;
+  files.record.segments = {{0, "one", 0.0, 10.0, Box(), Box()},
+                           {1, "two", 14.0, 24.0, Box(), Box()}};
+  for (const int i : {0, 1}) {
+    FruitTruth truth;
+    truth.centre = {1.0 * i, 0.0, 1.0};
+    truth.counted = true;
+    files.truth.push_back(truth);
+  }
+  files.record.views.resize(2);
+  files.record.views[0].t_s = 2.0;
+  files.record.views[1].t_s = 16.0;
+  files.record.views[1].segment = 1;
+  files.record.frames.resize(1);
+  files.record.frames[0].t_s = 12.0;
+  files.record.frames[0].fruits = {{0, files.truth[0].centre, 100.0, 1.0}};
+  files.record.views[1].fruits = files.record.frames[0].fruits;
+  files.record.views[1].fruits.push_back({1, files.truth[1].centre, 100.0, 1.0});
+  files.record.end_s = 25.0;
+  files.summary.planning_time_s = 6.0;
+  return files;
+}
+
+TEST(RunFigures, CountOverTheMissionsClock) {
+  RunFiles files = made_up_files(30.0);
+  files.summary.mission_time_s = 30.0;
+  files.summary.frames_fused = 7;
+  files.summary.frames_late = 2;
+  files.summary.frames_blurred = 3;
+  const RunFigures run = run_figures({}, files);
+  EXPECT_TRUE(run.one_clock);
+  EXPECT_EQ(run.planned_s, 30.0);
+  ASSERT_EQ(run.found.size(), 3U);
+  EXPECT_EQ(run.found[1].t_s, 12.0);  // on the way: found then
+  EXPECT_EQ(run.found[1].strict, 1);
+  EXPECT_EQ(run.found[2].t_s, 16.0);
+  EXPECT_EQ(run.found[2].strict, 2);
+  EXPECT_EQ(run.values[figure_index("mission_time_s")], 30.0);
+  EXPECT_EQ(run.values[figure_index("frames_fused")], 7.0);
+  EXPECT_EQ(run.values[figure_index("frames_late")], 2.0);
+  EXPECT_EQ(run.values[figure_index("frames_blurred")], 3.0);
+  EXPECT_EQ(run.values[figure_index("still_share")], 0.2);
+}
+
+TEST(RunFigures, LeaveTransitionsOutByThePapersClock) {
+  const RunFigures run = run_figures({}, made_up_files(0.0));
+  EXPECT_FALSE(run.one_clock);
+  EXPECT_EQ(run.planned_s, 20.0);
+  EXPECT_EQ(run.found[2].t_s, 12.0);
+  EXPECT_FALSE(run.values[figure_index("mission_time_s")].has_value());
+  EXPECT_FALSE(run.values[figure_index("frames_fused")].has_value());
+}
+
 TEST(Comparison, TextsOfFigures) {
   SampleFigures f;
   EXPECT_EQ(mean_text(f, 1), "–");

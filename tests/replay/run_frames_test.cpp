@@ -25,26 +25,30 @@ class Everything : public Watcher {
   std::vector<Event> events;
 };
 
-/// Two short segments of a simulated mission, watched.
+/// Two short segments of a simulated mission, watched; `hz` frames a second on the way.
+std::vector<Event> events_of(double hz) {
+  const RobotModel& robot = test::test_robot();
+  const Scene scene = make_world(scenario_1_world(), 1);
+  MissionOptions options;
+  for (const int side : {1, 2})
+    options.segments.push_back({TrolleyState{1.0, 0.0}, side, "side " + std::to_string(side)});
+  options.segment_time_s = 5.0;
+  options.costs[Work::candidate] = 1e-3;
+  options.on_the_way.hz = hz;
+  options.on_the_way.max_blur_px = 0.0;
+  Simulation simulation(robot, scene, robot.home("side_1"), TrolleyState{1.0, 0.0}, {});
+  const ArmIk ik = *ArmIk::make(robot);
+  Mission mission({robot, ik, simulation.judge().checker()}, simulation.ports(), options,
+                  Registries::built_in());
+  simulation.watch_map(&mission.map());
+  const auto all = std::make_shared<Everything>();
+  mission.watch(all, {.name = "all", .wait_in_simulated_time = true});
+  EXPECT_TRUE(mission.run().has_value());
+  return all->events;
+}
+
 const std::vector<Event>& events_of_a_mission() {
-  static const std::vector<Event> events = [] {
-    const RobotModel& robot = test::test_robot();
-    const Scene scene = make_world(scenario_1_world(), 1);
-    MissionOptions options;
-    for (const int side : {1, 2})
-      options.segments.push_back({TrolleyState{1.0, 0.0}, side, "side " + std::to_string(side)});
-    options.segment_time_s = 5.0;
-    options.costs[Work::candidate] = 1e-3;
-    Simulation simulation(robot, scene, robot.home("side_1"), TrolleyState{1.0, 0.0}, {});
-    const ArmIk ik = *ArmIk::make(robot);
-    Mission mission({robot, ik, simulation.judge().checker()}, simulation.ports(), options,
-                    Registries::built_in());
-    simulation.watch_map(&mission.map());
-    const auto all = std::make_shared<Everything>();
-    mission.watch(all, {.name = "all", .wait_in_simulated_time = true});
-    EXPECT_TRUE(mission.run().has_value());
-    return all->events;
-  }();
+  static const std::vector<Event> events = events_of(0.0);
   return events;
 }
 
@@ -198,6 +202,59 @@ TEST(RunFrames, APageCanPutTogetherMapTargetsPlanAndFruitsAtEveryMoment) {
   EXPECT_EQ(page.frames["picture"], 3 * page.frames["view"]);
   EXPECT_EQ(page.frames["motion"], page.frames["motion_end"]);
   EXPECT_EQ(page.frames["end"], 1);
+}
+
+/// How many voxels the page lacks or has too many.
+std::size_t beside(const Page& page, const VoxelMap& map) {
+  std::size_t there = 0;
+  std::size_t missing = 0;
+  map.for_each_block([&](BlockKey key, const BlockMasks& masks) {
+    for_each_voxel(key, masks.occupied, [&](const VoxelIndex& v) {
+      ++there;
+      missing += page.occupied.contains({v.x(), v.y(), v.z()}) ? 0 : 1;
+    });
+  });
+  return missing + page.occupied.size() + missing - there;
+}
+
+TEST(RunFrames, WhatFramesOnTheWayChangeIsToldAtViewsAndEveryTwoSeconds) {
+  RunFrames frames(story(), test::test_robot(), nullptr);
+  Page page;
+  int looks = 0;
+  double behind_since_s = -1.0;
+  bool at_view = false;
+  std::shared_ptr<const VoxelMap> last;
+  std::size_t fruits = 0;
+  for (const Event& event : events_of(10.0)) {
+    for (const Frame& frame : frames.of(event)) page.take(frame);
+    if (const auto* taken = std::get_if<FrameOnTheWay>(&event)) {
+      at_view = false;
+      ++looks;
+      const Json head = parse(frames.of(event).at(0)).head;
+      EXPECT_NEAR(head.at("t_s").get<double>(), taken->frame.t_s, 1e-3);
+      EXPECT_NEAR(head.at("at")[2].get<double>(), taken->frame.T_world_camera(2, 3), 1e-4);
+      EXPECT_NEAR(head.at("direction")[0].get<double>(), taken->frame.T_world_camera(0, 2), 1e-4);
+      EXPECT_EQ(head.at("realised"), taken->frame.realised_gain);
+    }
+    if (std::holds_alternative<FrameTaken>(event)) at_view = true;
+    if (const auto* change = std::get_if<MapChanged>(&event)) {
+      last = change->map;
+      if (beside(page, *change->map) == 0) {
+        behind_since_s = -1.0;
+      } else {
+        EXPECT_FALSE(at_view);
+        if (behind_since_s < 0.0) behind_since_s = change->t_s;
+        EXPECT_LT(change->t_s - behind_since_s, 2.0);
+      }
+    }
+    if (const auto* found = std::get_if<FruitsFound>(&event)) fruits = found->fruits.size();
+  }
+  ASSERT_NE(last, nullptr);
+  EXPECT_EQ(beside(page, *last), 0U);
+  EXPECT_EQ(page.fruits.size(), fruits);
+  EXPECT_GT(looks, 20);
+  EXPECT_EQ(page.frames["look"], looks);
+  EXPECT_LT(page.frames["map"], looks);
 }
 
 TEST(RunFrames, AfterALossTheMapIsWholeAgain) {

@@ -4,6 +4,7 @@
 #include <tinyxml2.h>
 
 #include "canopeer/base/atomic_file.h"
+#include "canopeer/report/run_files.h"
 #include "synthetic_run.h"
 
 namespace canopeer {
@@ -41,6 +42,37 @@ TEST(Report, ShowsAWholeRunWithItsGroundTruth) {
     EXPECT_TRUE(has(page, part)) << part;
   }
   EXPECT_FALSE(has(page, "interrupted"));
+}
+
+TEST(Report, ShowsFramesOnTheWay) {
+  const std::string page = page_of("frames", {.segments = 3, .on_the_way = true});
+  expect_sound(page);
+  for (const char* part : {"frames taken in on the way", "<h2>Frames on the way</h2>", "to a view",
+                           "home", "first known on the way", "T: where the mission",
+                           "counted: 3 min 09 s", "frames on<br>the way", "on the way as specks",
+                           "class=\"speck\"", "image motion during the exposure / px"}) {
+    EXPECT_TRUE(has(page, part)) << part;
+  }
+  const std::string without = page_of("no_frames", {.segments = 3});
+  for (const char* part : {"on the way", "counted:", "T: where"}) {
+    EXPECT_FALSE(has(without, part)) << part;
+  }
+}
+
+TEST(Report, CountsFruitsOfFramesOnTheWayInAKilledRun) {
+  const auto dir = std::filesystem::path(testing::TempDir()) / "canopeer_report_killed_frames";
+  testing_support::write_synthetic_run(dir, {.segments = 1, .truth = false, .on_the_way = true});
+  const std::string record = *read_file(dir / "record");
+  const std::size_t last_frame = record.rfind("\n{\"frame\"");
+  ASSERT_NE(last_frame, std::string::npos);
+  std::filesystem::remove_all(dir);
+  std::filesystem::create_directories(dir);
+  ASSERT_TRUE(write_file(dir / "record", record.substr(0, record.find('\n', last_frame + 1) + 1)));
+  const Expected<RunFiles> files = read_run_files(dir);
+  ASSERT_TRUE(files.has_value()) << files.error().message;
+  ASSERT_GT(files->record.frames.back().t_s, files->record.views.back().t_s);
+  EXPECT_EQ(files->fruits.size(), files->record.frames.back().fruits.size());
+  EXPECT_EQ(files->summary.fruits_reported, static_cast<int>(files->fruits.size()));
 }
 
 TEST(Report, SameDirectoryGivesTheSamePage) { EXPECT_EQ(page_of("same", {}), page_of("same", {})); }

@@ -110,6 +110,8 @@ ColorImage some_picture(int width, int height) {
   return image;
 }
 
+constexpr double kWholeS = 63.0;  // a segment's share of T
+
 class SyntheticRun {
  public:
   SyntheticRun(const std::filesystem::path& dir, const SyntheticRunOptions& options)
@@ -122,6 +124,7 @@ class SyntheticRun {
     header.seed = options.seed;
     header.compute_table = "default";
     header.segments = options.segments;
+    if (options.on_the_way) header.mission_time_s = kWholeS * options.segments;
     header.settings_json =
         R"({"planner":{"k_nearest":5,"look_ahead_rad":5.0},"map":{"resolution_m":0.01}})";
     auto writer = RecordWriter::create(dir, header);
@@ -143,6 +146,7 @@ class SyntheticRun {
  private:
   void run_segment(int segment, double length_s) {
     const double begin_s = t_s_;
+    segment_begin_s_ = begin_s;
     EXPECT_TRUE(writer_->begin_segment(
         {segment,
          "stop " + std::to_string(segment / 2 + 1) + ", side " + std::to_string(segment % 2 + 1),
@@ -160,15 +164,40 @@ class SyntheticRun {
     t_s_ += 4.5;
   }
 
-  static MotionEvent motion(const char* kind, int segment, double start_s, double duration_s,
-                            double path_rad) {
+  MotionEvent motion(const char* kind, int segment, double start_s, double duration_s,
+                     double path_rad) {
     MotionEvent motion;
+    if (options_.on_the_way) motion.frames = look_around(kind, segment, start_s, duration_s);
     motion.kind = kind;
     motion.segment = segment;
     motion.start_s = start_s;
     motion.duration_s = duration_s;
     motion.joint_path_rad = path_rad;
     return motion;
+  }
+
+  /// Two frames in a motion; the first is taken in.
+  FrameCounts look_around(const char* kind, int segment, double start_s, double duration_s) {
+    FrameEvent frame;
+    frame.segment = segment;
+    frame.during = kind;
+    frame.t_s = start_s + 0.5 * duration_s;
+    frame.blur_px = 0.1 + 0.001 * (views_ % 900);
+    frame.realised_gain = 100;
+    frame.T_world_camera.translation() = Vec3(0.0, -1.3 + 0.01 * views_, 1.0);
+    frame.fruits = fruits_at(segment, frame.t_s - segment_begin_s_);
+    EXPECT_TRUE(writer_->add(frame));
+    return {.fused = 1, .late = 0, .blurred = 1, .alike = 0, .unread = 0};
+  }
+
+  [[nodiscard]] std::vector<FruitSnapshot> fruits_at(int segment, double into_s) const {
+    std::vector<FruitSnapshot> fruits;
+    for (const Appearance& a : coming_) {
+      if (a.segment < segment || (a.segment == segment && a.after_s <= into_s)) {
+        fruits.push_back({a.fruit.id, a.fruit.centre, a.fruit.volume_cm3});
+      }
+    }
+    return fruits;
   }
 
   void take_view(int segment, double begin_s) {
@@ -187,11 +216,7 @@ class SyntheticRun {
         Vec3(rng_.uniform(-0.35, 0.3), -1.3 + 0.8 * (segment / 2) + rng_.uniform(-0.5, 0.5),
              rng_.uniform(0.7, 1.6));
     view.fused_points = 200'000;
-    for (const Appearance& a : coming_) {
-      if (a.segment < segment || (a.segment == segment && a.after_s <= t_s_ - begin_s)) {
-        view.fruits.push_back({a.fruit.id, a.fruit.centre, a.fruit.volume_cm3});
-      }
-    }
+    view.fruits = fruits_at(segment, t_s_ - begin_s);
     view.roi_voxels = static_cast<std::int64_t>(view.fruits.size()) * 190;
     view.graph_nodes = 800;
     view.graph_edges = 2100;
@@ -238,6 +263,7 @@ class SyntheticRun {
   std::vector<Appearance> coming_;
   std::unique_ptr<RecordWriter> writer_;
   double t_s_ = 0.0;
+  double segment_begin_s_ = 0.0;
   int views_ = 0;
   ViewEvent last_;
 };

@@ -10,6 +10,7 @@ struct SyntheticRunOptions {
   bool truth = true;
   bool interrupted = false;
   bool fruits = true;
+  bool on_the_way = false;  ///< frames between views, by a clock that never stops
   std::uint64_t seed = 1;
 };
 

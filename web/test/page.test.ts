@@ -13,6 +13,8 @@ import { Frustum } from "../src/scene/frustum.ts";
 import { RobotModel } from "../src/scene/robot_model.ts";
 import { TrueFruits } from "../src/scene/true_fruits.ts";
 import { TruthModel } from "../src/scene/truth_model.ts";
+import { markedLooks, markedViews, ViewMarks } from "../src/scene/view_marks.ts";
+import type { Palette } from "../src/theme.ts";
 import { same } from "../src/ui/same.ts";
 import { makeRun } from "./made/run.ts";
 
@@ -132,4 +134,24 @@ test("a fruit is sought in each picture with that view's camera", async () => {
   const found = await sightings(timeline, store, fruit, 9);
   assert.deepEqual(found.map((s) => s.view.view), [0, 1, 4]);
   assert.ok(found.every((s) => Math.abs(s.u - 65) < 1e-9 && Math.abs(s.radius - 2) < 1e-9));
+});
+
+test("marks show what was taken by then, views and frames on the way apart", () => {
+  const timeline = timelineOf();
+  const palette = new Proxy({}, { get: () => "#204060" }) as Palette;
+  for (const [marked, times] of [[markedViews, timeline.viewTimes], [markedLooks, timeline.lookTimes]] as const) {
+    const marks = new ViewMarks(marked);
+    marks.paint(palette);
+    marks.show(timeline, times[1]);
+    const mesh = marks.group.children[0] as THREE.InstancedMesh;
+    assert.equal(mesh.count, 2);
+    marks.show(timeline, timeline.duration);
+    assert.equal((marks.group.children[0] as THREE.InstancedMesh).count, times.length);
+  }
+  const at = new THREE.Matrix4();
+  const looks = markedLooks(timeline);
+  at.copy(looks.matrix(0));
+  const forward = new THREE.Vector3(0, 0, 1).transformDirection(at);
+  assert.ok(forward.distanceTo(new THREE.Vector3(...timeline.looks[0].direction)) < 1e-4);
+  assert.ok(new THREE.Vector3().setFromMatrixPosition(at).distanceTo(new THREE.Vector3(...timeline.looks[0].at)) < 1e-9);
 });

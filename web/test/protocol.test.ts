@@ -56,6 +56,14 @@ test("a view may say what its camera is", () => {
   refuses(frame({ ...head, camera: { ...camera, width: -1 } }), /width/);
 });
 
+test("a frame on the way says from where and how blurred", () => {
+  const head = { type: "look", segment: 1, t_s: 2.5, during: "trolley", at: [1, 2, 3], direction: [0, 1, 0], blur_px: 0.42, realised: 77, fruits: 3 };
+  assert.deepEqual(readFrame(frame(head)), {
+    type: "look", segment: 1, t: 2.5, during: "trolley", at: [1, 2, 3], direction: [0, 1, 0], blur: 0.42, realised: 77, fruits: 3,
+  }); // prettier-ignore
+  refuses(frame({ ...head, at: [1, 2] }), /look.at/);
+});
+
 test("fruits may be of no view", () => {
   assert.equal((readFrame(frame({ type: "fruits", view: -1, t_s: 0 })) as Fruits).view, -1);
   refuses(frame({ type: "fruits", view: 0.5, t_s: 0 }), /whole/);

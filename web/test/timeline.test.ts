@@ -207,3 +207,26 @@ test("the camera's way grows with the run and is cut where a motion was", () => 
   trail.extend(timeline);
   assert.ok(before < trail.times.length && trail.times.length < whole);
 });
+
+test("frames on the way are counted and do not pass for views", () => {
+  const timeline = timelineOf();
+  const { looks, views } = timeline;
+  assert.ok(looks.length > views.length && views.length === 18);
+  assert.equal(timeline.looksBy(-1), 0);
+  assert.equal(timeline.looksBy(looks[3].t), 4);
+  assert.equal(timeline.looksBy(timeline.duration), looks.length);
+  assert.equal(timeline.viewAt(looks[0].t), views[0]);
+  const course = timeline.fruitCourse();
+  assert.equal(course.length, looks.length + views.length);
+  for (let i = 1; i < course.length; ++i) assert.ok(course[i - 1].t <= course[i].t);
+});
+
+test("a fruit may be found on the way", () => {
+  const timeline = timelineOf();
+  const t = timeline.newest + 1;
+  const fruit = { id: 900, centre: [0, 0, 1], semi_axes: [0.03, 0.03, 0.03] };
+  timeline.append(read({ type: "look", segment: 2, t_s: t, during: "home", at: [0, 0, 1], direction: [1, 0, 0], fruits: 1 }));
+  timeline.append(read({ type: "fruits", view: 17, t_s: t, changed: [fruit], gone: [] }));
+  assert.match(timeline.events.at(-1)?.text ?? "", /Fruit 900 found on the way from view 17/);
+  assert.ok(!timeline.fruitsOfView.get(17)?.some((f) => f.id === 900));
+});

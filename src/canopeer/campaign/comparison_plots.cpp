@@ -53,11 +53,23 @@ void add_course(SvgPlot& plot, int colour, const ContestantRuns& contestant, dou
   plot.add_line(contestant.label, colour, std::move(mean));
 }
 
+/// A mission has one clock for all who are compared on it, unless a contestant's settings change
+/// it.
+std::string time_label(const Match& match) {
+  bool one = false;
+  bool own = false;
+  for (const auto& c : match.contestants) {
+    for (const auto& run : c.runs) (run.one_clock ? one : own) = true;
+  }
+  if (one && own) return "time in segments, or mission time / s";
+  return one ? "mission time / s" : "time in segments / s";
+}
+
 }  // namespace
 
 SvgPlot found_plot(const Match& match) {
-  SvgPlot plot({"Fruits found over time: " + match.title(), "time in segments / s",
-                "fruits found (0.20 m)"});
+  SvgPlot plot(
+      {"Fruits found over time: " + match.title(), time_label(match), "fruits found (0.20 m)"});
   plot.include(0.0, 0.0);
   const double end_s = longest(match);
   int colour = 0;

@@ -38,6 +38,10 @@ constexpr std::array kFigures = {
     Figure{"gain_correlation", "predicted and realised gain, rank correlation", 3, Better::more},
     Figure{"gain_ratio", "realised / predicted gain, median", 2, Better::neither},
     Figure{"collisions", "collisions", 1, Better::less},
+    Figure{"mission_time_s", "mission time that counts / s", 1, Better::neither},
+    Figure{"frames_fused", "frames on the way: taken in", 0, Better::neither},
+    Figure{"frames_late", "frames on the way: late", 0, Better::less},
+    Figure{"frames_blurred", "frames on the way: too blurred", 0, Better::neither},
 };
 
 template <typename T>
@@ -45,14 +49,17 @@ Value number(const std::optional<T>& value) {
   return value ? Value(static_cast<double>(*value)) : std::nullopt;
 }
 
-double time_in_segments(const RunRecord& record) {
+/// By the mission's clock: one that never stops, or each segment's own.
+double planned_time(const RunRecord& record) {
+  if (record.header.mission_time_s > 0.0) return record.header.mission_time_s;
   double sum = 0.0;
   for (const auto& segment : record.segments) sum += segment.end_s - segment.start_s;
   return sum;
 }
 
-/// Mission time without the transitions between segments.
+/// Mission time; without the transitions between segments where each has its own clock.
 double counted_time(const RunRecord& record, double t_s) {
+  if (record.header.mission_time_s > 0.0) return t_s;
   double sum = 0.0;
   for (const auto& segment : record.segments) {
     sum += std::clamp(t_s, segment.start_s, segment.end_s) - segment.start_s;
@@ -103,6 +110,10 @@ void add_summary(const Summary& s, RunFigures& run) {
   set("views", s.views);
   set("joint_path_rad", s.joint_path_length_rad);
   set("collisions", s.collisions);
+  set("mission_time_s", s.mission_time_s);
+  set("frames_fused", number(s.frames_fused));
+  set("frames_late", number(s.frames_late));
+  set("frames_blurred", number(s.frames_blurred));
 }
 
 }  // namespace
@@ -121,7 +132,8 @@ RunFigures run_figures(const CampaignJob& job, const RunFiles& files) {
   run.job = job;
   run.values.resize(kFigures.size());
   run.fruits_total = files.summary.fruits_total.value_or(0);
-  run.planned_s = time_in_segments(files.record);
+  run.one_clock = files.record.header.mission_time_s > 0.0;
+  run.planned_s = planned_time(files.record);
   add_summary(files.summary, run);
   for (const auto& f : compute_metrics(files.record, files.fruits, files.truth).found) {
     run.found.push_back({counted_time(files.record, f.t_s), f.detected_paper, f.detected});

@@ -32,15 +32,16 @@ struct RunFigures {
   CampaignJob job;
   std::vector<std::optional<double>> values;  ///< parallel to figures(); nothing: not measured
   int fruits_total = 0;
-  /// Time within segments (transitions left out, as the paper counts) and fruits found by then, at
-  /// 0.20 m and at 0.05 m; one entry a view.
+  /// Time within segments (transitions left out, as the paper counts), with `one_clock` mission
+  /// time, and fruits found by then, at 0.20 m and at 0.05 m; one entry a frame.
   struct Found {
     double t_s = 0.0;
     int paper = 0;
     int strict = 0;
   };
   std::vector<Found> found;
-  double planned_s = 0.0;                        ///< all segments together
+  bool one_clock = false;                        ///< that never stops
+  double planned_s = 0.0;                        ///< all segments together, by that clock
   std::vector<double> intervals_s;               ///< between views of the same segment
   std::vector<std::pair<double, double>> gains;  ///< predicted, realised; views with a prediction
 };

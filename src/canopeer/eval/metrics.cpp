@@ -6,6 +6,7 @@
 
 #include "canopeer/base/check.h"
 #include "canopeer/eval/matching.h"
+#include "canopeer/record/fruit_course.h"
 
 namespace canopeer {
 namespace {
@@ -21,27 +22,18 @@ std::vector<Vec3> centres_of(const Fruits& fruits) {
 std::vector<FoundAtTime> found_over_time(const RunRecord& record,
                                          std::span<const FruitTruth> truth) {
   std::vector<FoundAtTime> found;
-  found.reserve(record.views.size() + record.frames.size());
   std::vector<Vec3> last;
-  const auto add = [&](double t_s, const std::vector<FruitSnapshot>& fruits) {
-    std::vector<Vec3> centres = centres_of(fruits);
+  for (const FruitsAtTime& at : fruit_course(record)) {
+    std::vector<Vec3> centres = centres_of(*at.fruits);
     if (!found.empty() && centres == last) {  // most frames on the way move no fruit
       found.push_back(found.back());
-      found.back().t_s = t_s;
-      return;
+      found.back().t_s = at.t_s;
+      continue;
     }
-    found.push_back({t_s, static_cast<int>(match_optimal(centres, truth).pairs.size()),
+    found.push_back({at.t_s, static_cast<int>(match_optimal(centres, truth).pairs.size()),
                      static_cast<int>(match_greedy(centres, truth).pairs.size())});
     last = std::move(centres);
-  };
-  auto frame = record.frames.begin();
-  for (const ViewEvent& view : record.views) {
-    for (; frame != record.frames.end() && frame->t_s <= view.t_s; ++frame) {
-      add(frame->t_s, frame->fruits);
-    }
-    add(view.t_s, view.fruits);
   }
-  for (; frame != record.frames.end(); ++frame) add(frame->t_s, frame->fruits);
   return found;
 }
 

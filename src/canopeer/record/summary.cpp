@@ -4,6 +4,7 @@
 
 #include "canopeer/base/atomic_file.h"
 #include "canopeer/record/event_json.h"
+#include "canopeer/record/fruit_course.h"
 
 namespace canopeer {
 namespace {
@@ -146,9 +147,9 @@ Summary summary_of(const RunRecord& record) {
   s.sim_time_s = record.end_s;
   if (header.mission_time_s > 0.0) s.mission_time_s = header.mission_time_s;
   s.views = static_cast<int>(record.views.size());
-  if (!record.views.empty()) {
-    s.roi_voxels = record.views.back().roi_voxels;
-    s.fruits_reported = static_cast<int>(record.views.back().fruits.size());
+  if (!record.views.empty()) s.roi_voxels = record.views.back().roi_voxels;
+  if (const std::vector<FruitsAtTime> course = fruit_course(record); !course.empty()) {
+    s.fruits_reported = static_cast<int>(course.back().fruits->size());
   }
   score_pixels(record, s);
   add_up_motions(record, s);

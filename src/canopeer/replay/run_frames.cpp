@@ -1,6 +1,8 @@
 #include "canopeer/replay/run_frames.h"
 
 #include <algorithm>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include "canopeer/replay/frames/frame_head.h"
@@ -15,6 +17,10 @@ namespace canopeer {
 using namespace frames;
 
 namespace {
+
+// Seconds between two tellings of what frames on the way changed. It changes four times a second,
+// mostly in the same places.
+constexpr double kTellEvery = 2.0;
 
 bool same_pinhole(const CameraIntrinsics& a, const CameraIntrinsics& b) {
   return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy &&
@@ -33,6 +39,42 @@ struct RunFrames::State {
   PlanFrames plan;
   FruitFrames fruit;
 
+  /// What frames on the way changed and nobody was told yet.
+  struct Held {
+    std::set<BlockKey> blocks;
+    std::optional<MapChanged> map;
+    std::optional<FruitsFound> fruits;
+  };
+  Held held;
+  bool on_the_way = false;  // the last frame was
+  double told_s = -kTellEvery;
+
+  [[nodiscard]] bool waits(double t_s) const {
+    return on_the_way && t_s > told_s && t_s < told_s + kTellEvery;
+  }
+  std::vector<Frame> map_now(const MapChanged& change) {
+    held.map.reset();
+    const std::set<BlockKey> blocks = std::exchange(held.blocks, {});
+    told_s = change.t_s;
+    std::vector<Frame> all;
+    if (change.map) {
+      all.push_back(map.map(change.view, change.t_s, *change.map, {blocks.begin(), blocks.end()}));
+    }
+    if (change.targets) all.push_back(map.targets(change.view, *change.targets));
+    return all;
+  }
+  std::vector<Frame> fruits_now(const FruitsFound& found) {
+    held.fruits.reset();
+    told_s = found.t_s;
+    return {fruit.fruits(found)};
+  }
+  std::vector<Frame> all_held() {
+    std::vector<Frame> all;
+    if (held.map) all = map_now(MapChanged(*held.map));
+    if (held.fruits) all.push_back(fruit.fruits(*std::exchange(held.fruits, {})));
+    return all;
+  }
+
   [[nodiscard]] TrolleyState trolley(int segment) const {
     const auto index = static_cast<std::size_t>(std::max(segment, 0));
     return index < story.segments.size() ? story.segments[index].trolley : TrolleyState{};
@@ -47,6 +89,7 @@ struct RunFrames::State {
   }
   std::vector<Frame> frames(const SegmentEnded&) const { return {}; }
   std::vector<Frame> frames(const FrameTaken& taken) {
+    on_the_way = false;
     const CameraIntrinsics& camera = taken.frame->intrinsics;
     const bool other = !same_pinhole(camera, story.camera);
     story.camera = camera;
@@ -55,15 +98,22 @@ struct RunFrames::State {
                view_frame(taken.view, trolley(taken.view.segment), other ? &camera : nullptr));
     return all;
   }
-  /// Fruits and map tell of them, several at once; the arm is drawn along its motion anyway.
-  std::vector<Frame> frames(const FrameOnTheWay&) const { return {}; }
-  std::vector<Frame> frames(const MapChanged& change) {
-    std::vector<Frame> all;
-    if (change.map) all.push_back(map.map(change.view, change.t_s, *change.map, change.blocks));
-    if (change.targets) all.push_back(map.targets(change.view, *change.targets));
-    return all;
+  /// Without pictures: fruits and map tell what several of them changed.
+  std::vector<Frame> frames(const FrameOnTheWay& taken) {
+    on_the_way = true;
+    return {look_frame(taken.frame)};
   }
-  std::vector<Frame> frames(const FruitsFound& found) { return {fruit.fruits(found)}; }
+  std::vector<Frame> frames(const MapChanged& change) {
+    held.blocks.insert(change.blocks.begin(), change.blocks.end());
+    if (!waits(change.t_s)) return map_now(change);
+    held.map = change;
+    return {};
+  }
+  std::vector<Frame> frames(const FruitsFound& found) {
+    if (!waits(found.t_s)) return fruits_now(found);
+    held.fruits = found;
+    return {};
+  }
   std::vector<Frame> frames(const Planned& planned) {
     if (!planned.sketch) return {};
     return {plan.plan(planned)};
@@ -87,7 +137,11 @@ struct RunFrames::State {
     return {log_frame(steered.t_s, "notice", text)};
   }
   std::vector<Frame> frames(const WorkDone& done) const { return {work_frame(done.work)}; }
-  std::vector<Frame> frames(const RunEnded& end) const { return {end_frame(end)}; }
+  std::vector<Frame> frames(const RunEnded& end) {
+    std::vector<Frame> all = all_held();
+    all.push_back(end_frame(end));
+    return all;
+  }
 };
 
 namespace {

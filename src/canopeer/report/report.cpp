@@ -28,8 +28,8 @@ Expected<void> write_report(const std::filesystem::path& run_dir) {
   std::string body;
   for (const auto section :
        {headline_section, progress_section, map_section, gallery_section, view_interval_section,
-        time_use_section, picture_section, segment_section, figures_section, fruit_list_section,
-        settings_section}) {
+        frames_section, time_use_section, picture_section, segment_section, figures_section,
+        fruit_list_section, settings_section}) {
     body += section(data);
   }
   const std::string title = "canopeer: " + data.files.summary.mission;

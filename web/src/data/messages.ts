@@ -131,6 +131,21 @@ export interface View {
   fruits: number;
 }
 
+/** A frame taken on the way, while the arm or the trolley moved. */
+export interface Look {
+  type: "look";
+  segment: number;
+  t: number;
+  /** The kind of the motion. */
+  during: string;
+  at: Vec3;
+  /** Where the camera looked. */
+  direction: Vec3;
+  blur: number; // px
+  realised: number;
+  fruits: number;
+}
+
 export interface Picture {
   type: "picture";
   view: number;
@@ -268,6 +283,7 @@ export type Message =
   | Segment
   | Trolley
   | View
+  | Look
   | Picture
   | MapChange
   | Targets

@@ -10,6 +10,7 @@ import type {
   GraphNode,
   Hello,
   Log,
+  Look,
   Message,
   Picture,
   Plan,
@@ -63,6 +64,9 @@ export class Timeline {
   readonly segments: Segment[] = [];
   readonly views: View[] = [];
   readonly viewTimes: number[] = [];
+  /** Frames on the way. */
+  readonly looks: Look[] = [];
+  readonly lookTimes: number[] = [];
   readonly pictures = new Map<number, Pictures>();
   readonly events: Event[] = [];
   readonly eventTimes: number[] = [];
@@ -115,6 +119,16 @@ export class Timeline {
   /** The newest view at a time. */
   viewAt(t: number): View | null {
     return this.views[upperBound(this.viewTimes, t) - 1] ?? null;
+  }
+
+  /** How many frames on the way there were by then. */
+  looksBy(t: number): number {
+    return upperBound(this.lookTimes, t);
+  }
+
+  /** How many fruits were known after each frame, at a view or on the way, by time. */
+  fruitCourse(): { t: number; fruits: number }[] {
+    return [...this.views, ...this.looks].map(({ t, fruits }) => ({ t, fruits })).sort((a, b) => a.t - b.t);
   }
 
   view(number: number): View | null {
@@ -172,6 +186,10 @@ export class Timeline {
       case "view":
         this.addView(t, message);
         break;
+      case "look":
+        this.looks.push(message);
+        this.lookTimes.push(t);
+        break;
       case "picture":
         this.addPicture(message);
         break;
@@ -225,16 +243,22 @@ export class Timeline {
     this.tracks.addView(message);
   }
 
-  /** A view may have more than one message: the mission ends with what all views make of a fruit. */
+  /**
+   * A view may have more than one message: frames on the way after it change fruits, and the mission
+   * ends with what all frames make of a fruit.
+   */
   private addFruits(step: number, t: number, { view, changed, gone }: Fruits): void {
+    const onTheWay = (this.lookTimes.at(-1) ?? -1) > (this.viewTimes.at(-1) ?? -1);
+    const found = onTheWay ? `found on the way from view ${view}` : `found in view ${view}`;
     for (const fruit of changed) {
-      if (!this.fruits.last(fruit.id)) this.tell(t, "info", `Fruit ${fruit.id} found in view ${view}.`);
+      if (!this.fruits.last(fruit.id)) this.tell(t, "info", `Fruit ${fruit.id} ${found}.`);
       this.fruits.set(step, fruit.id, fruit);
     }
     for (const id of gone) {
       this.tell(t, "info", `Fruit ${id} is none, or part of another.`);
       this.fruits.set(step, id, undefined);
     }
+    if (onTheWay) return;
     const again = new Set(changed.map((f) => f.id));
     const others = (this.fruitsOfView.get(view) ?? []).filter((f) => !again.has(f.id));
     this.fruitsOfView.set(view, [...others, ...changed]);

@@ -11,8 +11,9 @@ export class Header {
   private readonly mission = el("h1", {}, "…");
   private readonly about = el("p", { class: "about" });
   private readonly status = el("span", { class: "status", role: "status" });
-  private readonly figures: Record<"time" | "segment" | "view" | "fruits" | "voxels", HTMLElement>;
+  private readonly figures: Record<"time" | "segment" | "view" | "looks" | "fruits" | "voxels", HTMLElement>;
 
+  private readonly lookBox: HTMLElement;
   private readonly report = el("a", { class: "plain", href: `report.html${location.search}`, hidden: true }, "Report");
 
   constructor(actions: { theme(): void; help(): void }) {
@@ -23,12 +24,17 @@ export class Header {
     const time = figure("Time");
     const segment = figure("Segment", "wide");
     const view = figure("View");
+    const looks = figure("On the way");
+    looks.box.title = "Frames taken while the arm or the trolley moved";
+    looks.box.hidden = true;
+    this.lookBox = looks.box;
     const fruits = figure("Fruits");
     const voxels = figure("Fruit voxels");
     this.figures = {
       time: time.value,
       segment: segment.value,
       view: view.value,
+      looks: looks.value,
       fruits: fruits.value,
       voxels: voxels.value,
     };
@@ -36,7 +42,7 @@ export class Header {
       "header",
       { class: "top" },
       el("div", { class: "title" }, el("div", { class: "name" }, this.mission, this.status), this.about),
-      el("dl", { class: "figures" }, time.box, segment.box, view.box, fruits.box, voxels.box),
+      el("dl", { class: "figures" }, time.box, segment.box, view.box, looks.box, fruits.box, voxels.box),
       el(
         "div",
         { class: "tools" },
@@ -67,6 +73,9 @@ export class Header {
     this.figures.segment.title = segment?.name ?? "";
     const views = timeline.views.length;
     setText(this.figures.view, view ? `${view.view} / ${timeline.views[views - 1].view}` : "–");
+    const looks = timeline.looks.length;
+    this.lookBox.hidden = looks === 0;
+    setText(this.figures.looks, `${timeline.looksBy(t)} / ${looks}`);
     const counted = timeline.truth?.fruits.filter((f) => f.counted).length;
     let fruits = 0;
     for (const _ of timeline.fruits.entriesAt(step)) ++fruits;

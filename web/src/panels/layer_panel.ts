@@ -14,11 +14,13 @@ const kTruth = new Set<string>(["plants", "trueFruits", "around"]);
 export class LayerPanel {
   readonly element: HTMLElement;
   private readonly truthRows: HTMLElement[];
+  private readonly lookRows: HTMLElement[];
   private readonly list = el("div", { class: "layer-list", id: "layers" });
 
   constructor(
     layers: Layers,
     private readonly simulated: () => boolean,
+    private readonly looksOnTheWay: () => boolean,
   ) {
     const switches = kLayers.map((layer, i) => {
       const input = el("input", { type: "checkbox" });
@@ -46,10 +48,12 @@ export class LayerPanel {
       kindRow.hidden = !layers.isOn("frontiers");
     });
     this.truthRows = switches.filter((s) => kTruth.has(s.layer.id)).map((s) => s.row);
+    this.lookRows = switches.filter((s) => s.layer.id === "looks").map((s) => s.row);
   }
 
-  /** The truth is known in simulation only. */
+  /** The truth is known in simulation only; most missions take no frames on the way. */
   update(): void {
+    for (const row of this.lookRows) row.hidden = !this.looksOnTheWay();
     for (const row of this.truthRows) row.hidden = !this.simulated();
   }
 

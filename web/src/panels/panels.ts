@@ -68,7 +68,11 @@ export class Panels {
       ],
       () => app.wake(),
     );
-    this.layerPanel = new LayerPanel(app.layers, () => app.timeline.hello?.simulated ?? true);
+    this.layerPanel = new LayerPanel(
+      app.layers,
+      () => app.timeline.hello?.simulated ?? true,
+      () => app.timeline.looks.length > 0,
+    );
     const look = (where: "robot" | "row" | "camera", name: string, key: string, picture: "robot" | "row" | "eye") =>
       el("button", { class: "round", label: name, title: `${name} (${key})`, on: { click: () => app.look(where) } }, icon(picture));
     this.sceneHolder = el(

@@ -167,18 +167,15 @@ export class Plots {
     const views = timeline.views;
     const end = timeline.duration;
     const counted = timeline.truth?.fruits.filter((f) => f.counted).length ?? null;
-    const as = [timeline, views.length, end.toFixed(1), counted];
+    const as = [timeline, views.length, timeline.looks.length, end.toFixed(1), counted];
     if (!same(as, this.shownAs)) {
       this.shownAs = as;
-      const x = views.map((v) => v.t);
+      const course = timeline.fruitCourse();
       // A last point, so that the line reaches the newest moment.
-      const ends = (list: Series, last: number | null): Series => [...list, last];
-      const xs = [...x, Math.max(end, x.at(-1) ?? 0)];
-      this.fruits.setData(
-        xs,
-        [ends(views.map((v) => v.fruits), views.at(-1)?.fruits ?? null), xs.map(() => counted)],
-        end,
-      );
+      const last = course.at(-1);
+      const xs = [...course.map((c) => c.t), Math.max(end, last?.t ?? 0)];
+      this.fruits.setData(xs, [[...course.map((c) => c.fruits), last?.fruits ?? null], xs.map(() => counted)], end);
+      const x = views.map((v) => v.t);
       const positive = (v: number | null) => (v === null ? null : Math.max(v, 10));
       this.gain.setData(x, [views.map((v) => positive(v.predicted)), views.map((v) => positive(v.realised))], end);
     }

@@ -99,6 +99,14 @@ export class Pointer {
           radius_m: 0.012,
         };
       }
+    if (this.layers.isOn("looks"))
+      for (const look of timeline.looks.slice(0, timeline.looksBy(t)))
+        yield {
+          selection: null,
+          label: `On the way · blurred by ${look.blur.toFixed(1)} px · seen ${whole(look.realised)}`,
+          point: look.at,
+          radius_m: 0.004,
+        };
     if (this.layers.isOn("graph"))
       for (const node of this.world.graph.nodes)
         yield {

@@ -4,7 +4,37 @@ import { upperBound } from "../data/search.ts";
 import { kindColor, type Palette } from "../theme.ts";
 import { matrixOf } from "./matrices.ts";
 
-/** A small pyramid where each picture was taken, pointing where the camera looked. */
+/** What is marked: where each one is and in what colour, and when each one came, by time. */
+export interface Marked {
+  times: number[];
+  matrix(i: number): THREE.Matrix4;
+  color(i: number, palette: Palette): string;
+}
+
+/** A small pyramid where each view was taken, pointing where the camera looked. */
+export function markedViews({ views, viewTimes }: Timeline): Marked {
+  return {
+    times: viewTimes,
+    matrix: (i) => matrixOf(views[i].T_world_camera),
+    color: (i, palette) => kindColor(palette, views[i].kind),
+  };
+}
+
+/** A smaller one for each frame on the way. */
+export function markedLooks({ looks, lookTimes }: Timeline): Marked {
+  const forward = new THREE.Vector3(0, 0, 1);
+  const size = new THREE.Vector3(0.45, 0.45, 0.45);
+  return {
+    times: lookTimes,
+    matrix: (i) => {
+      const turn = new THREE.Quaternion().setFromUnitVectors(forward, new THREE.Vector3(...looks[i].direction).normalize());
+      return new THREE.Matrix4().compose(new THREE.Vector3(...looks[i].at), turn, size);
+    },
+    color: (_, palette) => palette.driven,
+  };
+}
+
+/** Small pyramids where frames were taken. */
 export class ViewMarks {
   readonly group = new THREE.Group();
   private mesh: THREE.InstancedMesh | null = null;
@@ -13,19 +43,28 @@ export class ViewMarks {
   private readonly geometry = pyramid();
   private readonly material = new THREE.MeshLambertMaterial({ flatShading: true, side: THREE.DoubleSide });
 
+  constructor(private readonly marked: (timeline: Timeline) => Marked) {}
+
   show(timeline: Timeline, t: number): void {
-    const views = timeline.views;
-    if (!this.mesh || this.mesh.instanceMatrix.count < views.length) this.grow(views.length);
+    const { times, matrix, color } = this.marked(timeline);
+    if (!this.mesh || this.mesh.instanceMatrix.count < times.length) this.grow(times.length);
     const mesh = this.mesh;
     if (!mesh || !this.palette) return;
-    for (; this.made < views.length; ++this.made) {
-      const view = views[this.made];
-      mesh.setMatrixAt(this.made, matrixOf(view.T_world_camera));
-      mesh.setColorAt(this.made, new THREE.Color(kindColor(this.palette, view.kind)));
+    for (; this.made < times.length; ++this.made) {
+      mesh.setMatrixAt(this.made, matrix(this.made));
+      mesh.setColorAt(this.made, new THREE.Color(color(this.made, this.palette)));
       mesh.instanceMatrix.needsUpdate = true;
       if (mesh.instanceColor) mesh.instanceColor.needsUpdate = true;
     }
-    mesh.count = upperBound(timeline.viewTimes, t);
+    mesh.count = upperBound(times, t);
+  }
+
+  /** A point on one of them, for tests. */
+  somewhere(): [number, number, number] {
+    const at = new THREE.Matrix4();
+    this.mesh?.getMatrixAt(0, at);
+    const inside = new THREE.Vector3(0, 0, 0.02).applyMatrix4(at);
+    return [inside.x, inside.y, inside.z];
   }
 
   paint(palette: Palette): void {

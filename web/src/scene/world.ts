@@ -15,7 +15,7 @@ import { RobotModel } from "./robot_model.ts";
 import { Stage } from "./stage.ts";
 import { TrueFruits } from "./true_fruits.ts";
 import { TruthModel } from "./truth_model.ts";
-import { ViewMarks } from "./view_marks.ts";
+import { markedLooks, markedViews, ViewMarks } from "./view_marks.ts";
 import { cloudUniforms, mapLook, targetLook } from "./voxel_looks.ts";
 
 /** Everything in the 3D picture, at one moment of the run. */
@@ -26,7 +26,8 @@ export class World {
   readonly sheet = new PictureSheet(0.3);
   readonly fruits = new FruitShapes();
   readonly graph = new GraphLines();
-  readonly marks = new ViewMarks();
+  readonly marks = new ViewMarks(markedViews);
+  readonly looks = new ViewMarks(markedLooks);
   readonly truth = new TruthModel();
   readonly trueFruits = new TrueFruits();
   private readonly mapUniforms = cloudUniforms();
@@ -51,7 +52,7 @@ export class World {
     stage.scene.add(
       this.ground.group, this.truth.plants, this.truth.around, this.trueFruits.group, this.robot.group,
       this.map.group, this.targets.group, this.graph.group, this.paths.driven,
-      this.paths.planned, this.fruits.group, this.marks.group, this.boxes.group,
+      this.paths.planned, this.fruits.group, this.marks.group, this.looks.group, this.boxes.group,
       this.frustum.group, this.chosenFrustum.group, this.sheet.group,
     ); // prettier-ignore
     this.chosenFrustum.group.visible = false;
@@ -66,7 +67,7 @@ export class World {
     this.known = { robot: false, truth: false, segments: -1 };
     this.map.reset(timeline.hello?.resolution ?? 0.01);
     this.targets.reset(timeline.hello?.resolution ?? 0.01);
-    for (const part of [this.fruits, this.graph, this.marks, this.paths]) part.reset();
+    for (const part of [this.fruits, this.graph, this.marks, this.looks, this.paths]) part.reset();
     for (const part of [this.robot, this.truth, this.trueFruits, this.frustum, this.sheet]) part.clear();
     this.chooseView(null);
   }
@@ -81,6 +82,7 @@ export class World {
     if (this.layers.isOn("graph")) this.graph.show(timeline, step);
     this.fruits.show(timeline.fruits, step);
     this.marks.show(timeline, t);
+    this.looks.show(timeline, t);
     this.boxes.show(timeline.segmentAt(t));
     this.paths.show(timeline, t, step);
     if (timeline.robot) {
@@ -190,7 +192,7 @@ export class World {
     this.targetUniforms.colorC.value.set(palette.border);
     for (const part of [
       this.ground, this.robot, this.frustum, this.fruits, this.graph,
-      this.marks, this.truth, this.trueFruits, this.paths, this.boxes,
+      this.marks, this.looks, this.truth, this.trueFruits, this.paths, this.boxes,
     ]) part.paint(palette); // prettier-ignore
     this.chosenFrustum.paint(palette, palette.accent);
     this.stage.ask();
@@ -212,6 +214,7 @@ export class World {
     this.truth.around.visible = on("around");
     this.trueFruits.group.visible = on("trueFruits");
     this.marks.group.visible = on("views");
+    this.looks.group.visible = on("looks");
     this.boxes.group.visible = on("boxes");
     const kind = (k: "roi" | "occupied" | "border") => (this.layers.isKindOn(k) ? 1 : 0);
     this.targetUniforms.shown.value.set(kind("roi"), kind("occupied"), kind("border"));

@@ -137,12 +137,26 @@ class Maker {
     this.frames.push(
       frame({ type: "motion", kind, segment, t_s: this.t, duration_s: duration, rate_hz: rate, joints: 6, points }, positions),
     );
+    for (let t = 0.2; t < duration; t += 0.2) {
+      const i = Math.min(points - 1, Math.round(t * rate));
+      const q = [...positions.subarray(6 * i, 6 * i + 6)];
+      this.lookOnTheWay(segment, this.t + t, kind, cameraPose(this.robot, { ...from, q }));
+    }
     this.t += duration;
     const touched = this.next() < 0.08;
     this.frames.push(
       frame({ type: "motion_end", t_s: this.t, ended: "arrived", why: "", collision: false, plant_contact: touched }),
     );
     return duration;
+  }
+
+  private lookOnTheWay(segment: number, t_s: number, during: string, T: ArrayLike<number>): void {
+    this.frames.push(
+      frame({
+        type: "look", segment, t_s, during, at: [T[3], T[7], T[11]], direction: [T[2], T[6], T[10]],
+        blur_px: 0.5, realised: 120, fruits: this.seen.size,
+      }), // prettier-ignore
+    );
   }
 
   private plan(segment: number, fresh: boolean, at: Configuration): void {

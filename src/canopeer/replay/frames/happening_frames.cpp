@@ -84,6 +84,19 @@ Frame view_frame(const ViewEvent& view, const TrolleyState& trolley,
   return frame_of(head);
 }
 
+Frame look_frame(const FrameEvent& frame) {
+  Json head = head_of("look");
+  head["segment"] = frame.segment;
+  head["t_s"] = from_time(frame.t_s);
+  head["during"] = frame.during;
+  head["at"] = from(Vec3(frame.T_world_camera.translation()));
+  head["direction"] = from(Vec3(frame.T_world_camera.linear().col(2)));
+  head["blur_px"] = rounded(frame.blur_px, 0.01);
+  head["realised"] = frame.realised_gain;
+  head["fruits"] = frame.fruits.size();
+  return frame_of(head);
+}
+
 Frame motion_frame(const MotionBegun& motion, const RobotModel& robot) {
   const PathMotion timed(motion.path, robot);
   const int points =

@@ -17,6 +17,8 @@ namespace canopeer::frames {
 /// `camera`: when it is another than the one told last, else null.
 [[nodiscard]] Frame view_frame(const ViewEvent& view, const TrolleyState& trolley,
                                const CameraIntrinsics* camera);
+/// A frame on the way: from where it was taken, and what came of it.
+[[nodiscard]] Frame look_frame(const FrameEvent& frame);
 /// The path as it is timed, stretched to the duration that is expected.
 [[nodiscard]] Frame motion_frame(const MotionBegun& motion, const RobotModel& robot);
 [[nodiscard]] Frame motion_end_frame(const MotionEvent& motion);

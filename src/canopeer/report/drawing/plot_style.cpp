@@ -30,6 +30,7 @@ svg .solid { stroke-width: 1; fill-opacity: 0.55; }
 svg .truth { fill: none; stroke: var(--ink); stroke-width: 1.3; }
 svg .missed { fill: none; stroke: var(--ink); stroke-width: 1.6; stroke-dasharray: 3 2.5; }
 svg .camera { fill: var(--muted); fill-opacity: 0.45; }
+svg .speck { fill: none; stroke: var(--muted); stroke-opacity: 0.4; stroke-width: 1.5; stroke-linecap: round; }
 svg .path { fill: none; stroke: var(--muted); stroke-opacity: 0.3; stroke-width: 0.8; }
 svg .band { stroke: none; fill-opacity: 0.16; }
 svg .dot { stroke: none; fill-opacity: 0.45; }

@@ -117,7 +117,9 @@ class FruitMap {
   void make_panels() {
     const double aisle = aisle_x();
     Panel above;
-    above.head = "From above, camera positions as dots";
+    above.head = input_.on_the_way.empty()
+                     ? "From above, camera positions as dots"
+                     : "From above, camera positions as dots, on the way as specks";
     above.down_label = "x / m";
     above.down_axis = 0;
     above.down_is_positive = true;
@@ -131,6 +133,7 @@ class FruitMap {
       panels_.push_back(std::move(panel));
     }
     for (const Vec3& camera : input_.cameras) above.shown.extend(camera);
+    for (const Vec3& camera : input_.on_the_way) above.shown.extend(camera);
     if (above.shown.isEmpty()) above.shown.extend(Box(Vec3(-1, -1, 0), Vec3(1, 1, 1)));
     if (input_.cameras.empty()) above.head = "From above";
     constexpr double kAirM = 0.05;
@@ -212,8 +215,21 @@ class FruitMap {
                              right, bottom + 31.0);
   }
 
+  /// There may be thousands: those that lie on the one before are left out.
+  [[nodiscard]] std::string specks(const PictureProjection& p, const Eigen::Vector2d& o) const {
+    std::string marks;
+    Eigen::Vector2d last = Eigen::Vector2d::Constant(-1e9);
+    for (const Vec3& camera : input_.on_the_way) {
+      const Eigen::Vector2d at = o + p * camera;
+      if ((at - last).norm() < 1.0) continue;
+      last = at;
+      marks += fmt::format("M{:.1f} {:.1f}h0", at.x(), at.y());
+    }
+    return marks.empty() ? marks : "<path class=\"speck\" d=\"" + marks + "\"/>";
+  }
+
   [[nodiscard]] std::string cameras(const PictureProjection& p, const Eigen::Vector2d& o) const {
-    std::string dots;
+    std::string dots = specks(p, o);
     for (const Vec3& camera : input_.cameras) {
       const Eigen::Vector2d at = o + p * camera;
       dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"1.8\"/>", at.x(), at.y());

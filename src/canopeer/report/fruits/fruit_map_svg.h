@@ -14,6 +14,7 @@ struct FruitMapInput {
   std::vector<FruitEstimate> fruits;
   std::vector<FruitTruth> truth;  ///< empty: there is none
   std::vector<Vec3> cameras;      ///< in the order of the views; may be empty
+  std::vector<Vec3> on_the_way;   ///< where frames were taken between views
 };
 
 /// Front view of each plant row (y to the right, z up) and the view from above (y to the right, x

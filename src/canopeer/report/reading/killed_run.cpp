@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "canopeer/record/fruit_course.h"
+
 namespace canopeer {
 
 Summary summary_from_record(const RunRecord& record) {
@@ -13,8 +15,9 @@ Summary summary_from_record(const RunRecord& record) {
 
 std::vector<FruitEstimate> fruits_from_record(const RunRecord& record) {
   std::vector<FruitEstimate> fruits;
-  if (record.views.empty()) return fruits;
-  for (const FruitSnapshot& snapshot : record.views.back().fruits) {
+  const std::vector<FruitsAtTime> course = fruit_course(record);
+  if (course.empty()) return fruits;
+  for (const FruitSnapshot& snapshot : *course.back().fruits) {
     FruitEstimate fruit;
     fruit.id = snapshot.id;
     fruit.centre = snapshot.centre;

@@ -1,7 +1,8 @@
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <map>
 
+#include "canopeer/record/fruit_course.h"
 #include "canopeer/report/drawing/axis_ticks.h"
 #include "canopeer/report/fruits/fruit_map_svg.h"
 #include "canopeer/report/html_parts.h"
@@ -41,23 +42,21 @@ std::string place_cell(const FruitEstimate& f) {
 }
 
 /// Its number, which leads to the moment it was first known.
-std::string fruit_cell(const FruitEstimate& fruit, const RunFiles& files) {
-  std::string text = std::to_string(fruit.id);
-  if (!files.replay) return text;
-  for (const ViewEvent& view : files.record.views) {
-    const bool known = std::any_of(view.fruits.begin(), view.fruits.end(),
-                                   [&](const FruitSnapshot& f) { return f.id == fruit.id; });
-    if (known) return html_moment(view.t_s, text);
-  }
-  return text;
+std::string fruit_cell(const FruitEstimate& fruit, const std::map<int, FruitsAtTime>& first) {
+  const std::string text = std::to_string(fruit.id);
+  const auto known = first.find(fruit.id);
+  return known == first.end() ? text : html_moment(known->second.t_s, text);
 }
 
 }  // namespace
 
 FruitMapInput fruit_map_input(const RunFiles& files) {
-  FruitMapInput input{files.fruits, files.truth, {}};
+  FruitMapInput input{files.fruits, files.truth, {}, {}};
   for (const ViewEvent& view : files.record.views) {
     input.cameras.push_back(view.T_world_camera.translation());
+  }
+  for (const FrameEvent& frame : files.record.frames) {
+    input.on_the_way.push_back(frame.T_world_camera.translation());
   }
   return input;
 }
@@ -80,11 +79,13 @@ std::string fruit_list_section(const ReportData& data) {
                                    "a × b × c / mm", "volume / cm³", "seen / %", "views",
                                    "ripeness",       "confidence",   "row place"};
   if (scored) head.emplace_back("is");
+  std::map<int, FruitsAtTime> first;  // where there is a replay to look at
+  if (files.replay) first = first_known(fruit_course(files.record));
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < files.fruits.size(); ++i) {
     const FruitEstimate& f = files.fruits[i];
     const Vec3 axes_mm = 1e3 * f.semi_axes_m;
-    rows.push_back({fruit_cell(f, files), signed_number(f.centre.x(), 3),
+    rows.push_back({fruit_cell(f, first), signed_number(f.centre.x(), 3),
                     signed_number(f.centre.y(), 3), signed_number(f.centre.z(), 3),
                     fmt::format("{:.0f} × {:.0f} × {:.0f}", axes_mm.x(), axes_mm.y(), axes_mm.z()),
                     fmt::format("{:.0f} ± {:.0f}", f.volume_cm3, f.volume_sd_cm3),

@@ -101,8 +101,11 @@ std::string headline_section(const ReportData& data) {
   }
   html += interventions(data.files.record);
   html += "<div class=\"cards\">\n" + fruit_cards(s);
-  html += card(duration_text(s.sim_time_s), "mission time, " + begun_of_planned(data));
+  html += card(duration_text(s.sim_time_s),
+               "mission time, " + begun_of_planned(data) +
+                   (s.mission_time_s ? "; counted: " + duration_text(*s.mission_time_s) : ""));
   html += card(std::to_string(s.views), "views");
+  if (s.frames_fused) html += card(std::to_string(*s.frames_fused), "frames taken in on the way");
   html += card(std::to_string(s.collisions), "collisions", s.collisions > 0 ? "bad" : "");
   html += card(std::to_string(s.plant_contacts), "contacts with plant parts not seen before");
   if (s.wall_time_s > 0.0) html += card(duration_text(s.wall_time_s), "computing time of this run");

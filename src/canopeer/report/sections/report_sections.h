@@ -14,7 +14,7 @@ namespace canopeer {
 struct ReportData {
   RunFiles files;
   std::vector<FruitVerdict> verdicts;  ///< one per reported fruit
-  std::vector<FoundAtTime> found;      ///< one per view; empty without ground truth
+  std::vector<FoundAtTime> found;      ///< one per frame; empty without ground truth
 };
 
 [[nodiscard]] FruitMapInput fruit_map_input(const RunFiles& files);
@@ -26,6 +26,7 @@ struct ReportData {
 [[nodiscard]] std::string map_section(const ReportData& data);
 [[nodiscard]] std::string gallery_section(const ReportData& data);
 [[nodiscard]] std::string view_interval_section(const ReportData& data);
+[[nodiscard]] std::string frames_section(const ReportData& data);
 [[nodiscard]] std::string time_use_section(const ReportData& data);
 [[nodiscard]] std::string picture_section(const ReportData& data);
 [[nodiscard]] std::string segment_section(const ReportData& data);

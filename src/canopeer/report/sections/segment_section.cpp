@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "canopeer/record/fruit_course.h"
 #include "canopeer/report/html_parts.h"
 #include "canopeer/report/html_text.h"
 #include "canopeer/report/sections/report_sections.h"
@@ -50,6 +51,12 @@ double planning_of(const RunRecord& record, int segment) {
   return sum;
 }
 
+template <typename Events>
+long long count_in(const Events& events, int segment) {
+  return std::count_if(events.begin(), events.end(),
+                       [&](const auto& event) { return event.segment == segment; });
+}
+
 std::string segment_cell(const SegmentEvent& segment, bool replay) {
   const std::string text = fmt::format("{}: {}", segment.segment + 1, escape_html(segment.name));
   return replay ? html_moment(segment.start_s, text) : text;
@@ -60,9 +67,9 @@ std::string fruits_gained(const ReportData& data, double from_s, double to_s) {
     const auto count = [](const FoundAtTime& f) { return f.detected; };
     return gain(at_time(data.found, from_s, count), at_time(data.found, to_s, count));
   }
-  const std::vector<ViewEvent>& views = data.files.record.views;
-  const auto count = [](const ViewEvent& v) { return static_cast<long long>(v.fruits.size()); };
-  return gain(at_time(views, from_s, count), at_time(views, to_s, count));
+  const std::vector<FruitsAtTime> course = fruit_course(data.files.record);
+  const auto count = [](const FruitsAtTime& f) { return static_cast<long long>(f.fruits->size()); };
+  return gain(at_time(course, from_s, count), at_time(course, to_s, count));
 }
 
 }  // namespace
@@ -70,12 +77,11 @@ std::string fruits_gained(const ReportData& data, double from_s, double to_s) {
 std::string segment_section(const ReportData& data) {
   const RunRecord& record = data.files.record;
   const std::vector<std::vector<double>> intervals = view_intervals(record);
+  const bool on_the_way = !record.frames.empty();
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < record.segments.size(); ++i) {
     const SegmentEvent& segment = record.segments[i];
-    const auto views =
-        std::count_if(record.views.begin(), record.views.end(),
-                      [&](const ViewEvent& view) { return view.segment == segment.segment; });
+    const auto views = count_in(record.views, segment.segment);
     // Up to where the next one begins: frames of the transition between them belong to this one.
     const double from_s = i == 0 ? -1.0 : segment.start_s;
     const double to_s =
@@ -91,18 +97,31 @@ std::string segment_section(const ReportData& data) {
          fmt::format("{:.1f}", motions.moving_s),
          fmt::format("{:.1f}", planning_of(record, segment.segment)),
          std::to_string(motions.collisions), std::to_string(motions.contacts)});
+    if (on_the_way) {
+      rows.back().insert(rows.back().begin() + 4,
+                         std::to_string(count_in(record.frames, segment.segment)));
+    }
   }
   if (rows.empty()) return {};
-  return html_section(
-      "Segments", html_table({"Segment", "begin<br>s", "length<br>s", "views",
-                              data.found.empty() ? "fruits<br>reported" : "fruits found<br>(5 cm)",
-                              "ROI<br>voxels", "between views,<br>median s", "moving<br>s",
-                              "planning<br>s", "colli-<br>sions", "plant<br>contacts"},
-                             rows) +
-                      (data.files.replay ? "<p class=\"note\">Names of segments and numbers of "
-                                           "fruits lead to the moment in the replay, while "
-                                           "<code>canopeer view</code> shows this run.</p>\n"
-                                         : ""));
+  std::vector<std::string> head = {
+      "Segment",
+      "begin<br>s",
+      "length<br>s",
+      "views",
+      data.found.empty() ? "fruits<br>reported" : "fruits found<br>(5 cm)",
+      "ROI<br>voxels",
+      "between views,<br>median s",
+      "moving<br>s",
+      "planning<br>s",
+      "colli-<br>sions",
+      "plant<br>contacts"};
+  if (on_the_way) head.insert(head.begin() + 4, "frames on<br>the way");
+  return html_section("Segments",
+                      html_table(head, rows) +
+                          (data.files.replay ? "<p class=\"note\">Names of segments and numbers of "
+                                               "fruits lead to the moment in the replay, while "
+                                               "<code>canopeer view</code> shows this run.</p>\n"
+                                             : ""));
 }
 
 }  // namespace canopeer
