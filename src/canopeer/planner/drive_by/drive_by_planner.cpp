@@ -10,11 +10,12 @@
 namespace canopeer {
 namespace {
 
-constexpr double kStands = 0.02;  // m: a trolley as near to a place is there
-constexpr double kAtPose = 0.05;  // rad, Σ|Δq|: so is an arm
-constexpr double kStepM = 0.1;    // between places where the camera could be parked
-constexpr double kLookM = 0.5;    // any: the camera looks in a direction
-constexpr int kMaxMotions = 2;    // tries to get to a pose
+constexpr double kStands = 0.02;     // m: a trolley as near to a place is there
+constexpr double kAtPose = 0.05;     // rad, Σ|Δq|: so is an arm
+constexpr double kStepM = 0.1;       // between places where the camera could be parked
+constexpr double kLookM = 0.5;       // any: the camera looks in a direction
+constexpr int kMaxMotions = 2;       // tries to get to a pose
+constexpr double kLookEveryM = 0.3;  // along the row, where it has to stop to look
 
 /// The middle, then on either side of it, ever farther away.
 std::vector<double> from_the_middle(double low, double high, double step) {
@@ -38,6 +39,7 @@ void DriveByPlanner::begin_segment(const PlanningScene& scene) {
   plan_passes();
   next_ = 0;
   motions_ = drives_ = 0;
+  goal_m_.reset();
   parked_.reset();
   ever_parked_ = false;
 }
@@ -109,6 +111,7 @@ Decision DriveByPlanner::decide(const Configuration& q, WorkMeter& work) {
 void DriveByPlanner::next_pass() {
   ++next_;
   motions_ = drives_ = 0;
+  goal_m_.reset();
   parked_.reset();
 }
 
@@ -165,6 +168,7 @@ bool DriveByPlanner::may_drive(const Configuration& q) const {
 /// other. Nothing: the pass is over.
 std::optional<TrolleyState> DriveByPlanner::next_end(double lift_m) {
   const double now = scene_.segment.trolley.travel_m;
+  if (goal_m_ && std::abs(*goal_m_ - now) > kStands) return TrolleyState{*goal_m_, lift_m};
   double first = now;
   double last = now;
   bool any = false;
@@ -180,7 +184,9 @@ std::optional<TrolleyState> DriveByPlanner::next_end(double lift_m) {
   while (drives_ < 2) {
     const bool first_is_near = std::abs(now - first) < std::abs(now - last);
     const double goal = (drives_++ == 0) == first_is_near ? first : last;
-    if (std::abs(goal - now) > kStands) return TrolleyState{goal, lift_m};
+    if (std::abs(goal - now) <= kStands) continue;
+    goal_m_ = goal;
+    return TrolleyState{goal, lift_m};
   }
   return std::nullopt;
 }
@@ -189,6 +195,10 @@ Decision DriveByPlanner::drive(const TrolleyState& goal, const Configuration& q)
   Decision decision;
   decision.action = Decision::Action::drive;
   decision.drive.goal = goal;
+  if (!scene_.looks_on_the_way) {
+    const double now = scene_.segment.trolley.travel_m;
+    decision.drive.goal.travel_m = std::clamp(goal.travel_m, now - kLookEveryM, now + kLookEveryM);
+  }
   if (!scene_.sharp) return decision;
   const double speed = drive_speed(*scene_.robot, q, *scene_.sharp);
   if (std::isfinite(speed)) decision.drive.max_travel_m_s = speed;
@@ -197,13 +207,14 @@ Decision DriveByPlanner::drive(const TrolleyState& goal, const Configuration& q)
 
 Expected<std::string> DriveByPlanner::state() const {
   if (!mover_) return fail("no segment has begun");
-  return state_bytes(*mover_, region_base_, next_, motions_, drives_, parked_, ever_parked_);
+  return state_bytes(*mover_, region_base_, next_, motions_, drives_, goal_m_, parked_,
+                     ever_parked_);
 }
 
 Expected<void> DriveByPlanner::restore(const PlanningScene& scene, std::string_view state) {
   begin_segment(scene);
-  auto read = read_state_bytes(state, *mover_, region_base_, next_, motions_, drives_, parked_,
-                               ever_parked_);
+  auto read = read_state_bytes(state, *mover_, region_base_, next_, motions_, drives_, goal_m_,
+                               parked_, ever_parked_);
   if (read) plan_passes();
   return read;
 }

@@ -22,7 +22,8 @@ struct DriveByOptions {
 /// parked at `poses` heights, facing the row, and with each the trolley drives to the other end of
 /// the row, no faster than frames stay sharp (PlanningScene::sharp; nothing: as fast as it can).
 /// Then the same again with the camera tilted left, right, up and down. When all is done it waits.
-/// Frames on the way are all it sees but for one at each pose.
+/// Frames on the way are all it sees but for one at each end; where none are taken it stops to look
+/// every 0.3 m.
 ///
 /// The heights divide the part of the workspace that is as high as the sampling region evenly. Of
 /// the places along the row and at least so far from it the one nearest to the workspace's middle
@@ -69,6 +70,7 @@ class DriveByPlanner : public Planner {
   int motions_ = 0;  // to the pose of this pass
   int drives_ = 0;   // along the row in this pass
   std::optional<Configuration> parked_;
+  std::optional<double> goal_m_;  ///< where it drives to at present
   bool ever_parked_ = false;
 };
 
