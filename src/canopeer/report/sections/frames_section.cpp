@@ -17,7 +17,7 @@ struct FramesDuring {
   const char* name;
   std::string kind;  // of the motion
   int motions = 0;
-  FrameCounts counts;
+  FrameCounts counts{};
   std::int64_t gain = 0;  // voxels newly known
 };
 
