@@ -13,7 +13,7 @@ export const kLayers = [
   { id: "trueFruits", name: "True fruits", on: false },
   { id: "around", name: "True surroundings", on: false },
   { id: "views", name: "Views taken", on: true },
-  { id: "looks", name: "Frames on the way", on: true },
+  { id: "onTheWay", name: "Frames on the way", on: true },
   { id: "boxes", name: "Search boxes", on: false },
 ] as const;
 

@@ -21,7 +21,7 @@ namespace {
 constexpr std::string_view kReplayMagic = "CANOPEER-REPLAY 1\n";
 constexpr std::size_t kPieceHead = 16;  // packed size, unpacked size, frames, checksum
 constexpr std::uint32_t kMostUnpacked = 1U << 28;
-constexpr int kReplayLevel = 3;
+constexpr int kReplayLevel = 6;
 
 /// Where a piece lies.
 struct Piece {

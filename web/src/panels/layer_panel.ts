@@ -48,7 +48,7 @@ export class LayerPanel {
       kindRow.hidden = !layers.isOn("frontiers");
     });
     this.truthRows = switches.filter((s) => kTruth.has(s.layer.id)).map((s) => s.row);
-    this.lookRows = switches.filter((s) => s.layer.id === "looks").map((s) => s.row);
+    this.lookRows = switches.filter((s) => s.layer.id === "onTheWay").map((s) => s.row);
   }
 
   /** The truth is known in simulation only; most missions take no frames on the way. */

@@ -99,7 +99,7 @@ export class Pointer {
           radius_m: 0.012,
         };
       }
-    if (this.layers.isOn("looks"))
+    if (this.layers.isOn("onTheWay"))
       for (const look of timeline.looks.slice(0, timeline.looksBy(t)))
         yield {
           selection: null,

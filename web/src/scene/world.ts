@@ -214,7 +214,7 @@ export class World {
     this.truth.around.visible = on("around");
     this.trueFruits.group.visible = on("trueFruits");
     this.marks.group.visible = on("views");
-    this.looks.group.visible = on("looks");
+    this.looks.group.visible = on("onTheWay");
     this.boxes.group.visible = on("boxes");
     const kind = (k: "roi" | "occupied" | "border") => (this.layers.isKindOn(k) ? 1 : 0);
     this.targetUniforms.shown.value.set(kind("roi"), kind("occupied"), kind("border"));
