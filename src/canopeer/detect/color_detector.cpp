@@ -104,7 +104,8 @@ ColorClasses classes_of(const cv::Mat& hsv, const ColorDetectorOptions& options)
       add_window(ranges, static_cast<unsigned>(kClasses * (i - first)), windows[i]);
     }
     const std::uint8_t* pixel = hsv.ptr();
-    for (std::size_t i = 0; i < hsv.total(); ++i, pixel += 3) {
+    const std::size_t count = hsv.total();
+    for (std::size_t i = 0; i < count; ++i, pixel += 3) {
       const std::uint64_t in = ranges.of(pixel);
       if (in == 0) continue;
       if ((in & of_class[kSure]) != 0) classes.sure.data[i] = 255;
