@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "canopeer/detect/blobs.h"
 #include "canopeer/detect/pixel_score.h"
 #include "synthetic_view.h"
 
@@ -69,6 +70,26 @@ TEST(ColorDetector, IsConfidentExactlyWhereItFindsFruit) {
     const float confidence = detection.confidence.pixels()[i];
     ASSERT_EQ(confidence > 0.0F, detection.fruit.pixels()[i] != 0);
     ASSERT_LE(confidence, 1.0F);
+  }
+}
+
+TEST(ColorDetector, ManyWindowsFindWhatTheyFindOneByOne) {
+  ColorDetectorOptions options;
+  options.windows.insert(options.windows.begin(), 45, {PixelLabel::ripe_fruit, 80.0, 81.0});
+  const View view = look(plant(), kCamera, kRow);
+  const Detection few = *ColorDetector().detect(view.frame);
+  const Detection many = *ColorDetector(options).detect(view.frame);
+  EXPECT_EQ(few.fruit.pixels(), many.fruit.pixels());
+}
+
+TEST(Blobs, EachPixelOfAMaskIsMetOnceInItsRow) {
+  for (const int width : {1, 7, 8, 21}) {
+    Mask mask(width, 5);
+    for (std::size_t i = 0; i < mask.pixels().size(); i += 1 + i % 11) mask.pixels()[i] = 1;
+    mask.pixels().back() = 1;
+    Mask met(width, 5);
+    for_each_pixel_in(mask, [&](int u, int v) { ++met.at(u, v); });
+    EXPECT_EQ(met.pixels(), mask.pixels());
   }
 }
 
