@@ -2,7 +2,7 @@
 # Builds the benchmarks and runs them, each beside its baseline: ./bench.sh [--only NAME] [--json FILE] [--filter REGEX]
 set -euo pipefail
 cd "$(dirname "$0")"
-names=$(cd bench && ls -- *_bench.cpp | sed 's/_bench\.cpp$//')
+names=$(sed -n 's/^add_executable(\([a-z]*\)_bench .*/\1/p' bench/CMakeLists.txt | sort)
 only=
 json=
 filter=

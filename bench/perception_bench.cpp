@@ -3,6 +3,7 @@
 
 #include <sched.h>
 
+#include <string>
 #include <vector>
 
 #include "bench_rows.h"
@@ -22,6 +23,42 @@ void keep_to_two_cores() {
   static_cast<void>(sched_setaffinity(0, sizeof two, &two));
 }
 
+/// Frames a second that are known, with their fruits, while a graph grows and a search runs; beside
+/// it the same with distances, targets and the planner's turn after each frame.
+canopeer::BenchRow sustained(const std::string& by) {
+  return {.name = "perception.sustained_hz" + by,
+          .ours = "sustained_merged" + by,
+          .baseline = "sustained_one_by_one" + by,
+          .unit = "Hz",
+          .counter = "hz",
+          .more_is_better = true};
+}
+
+/// From a frame's arrival, 15 a second, until fruits and map know it.
+canopeer::BenchRow latency(const std::string& by) {
+  return {.name = "perception.latency_p95" + by,
+          .ours = "latency" + by,
+          .unit = "p95_ms",
+          .counter = "p95_ms"};
+}
+
+/// Of those frames the share for which there was no room.
+canopeer::BenchRow late(const std::string& by) {
+  return {.name = "perception.late" + by,
+          .ours = "latency" + by,
+          .unit = "%",
+          .counter = "late_percent"};
+}
+
+/// Of the two that the process had by the clock: less where others were at work.
+canopeer::BenchRow cores(const std::string& of, const std::string& run) {
+  return {.name = "perception." + of + "_cores",
+          .ours = run,
+          .unit = "cores",
+          .counter = "cores",
+          .more_is_better = true};
+}
+
 canopeer::BenchRow step(const std::string& name) {
   return {.name = "perception." + name, .ours = "steps", .unit = "cpu_ms", .counter = name + "_ms"};
 }
@@ -33,28 +70,15 @@ int main(int argc, char** argv) {
   const canopeer::Threads one(1);
   using canopeer::BenchRow;
   const std::vector<BenchRow> rows = {
-      // Frames a second that are known, with their fruits, while a graph grows and a search runs;
-      // beside it the same with distances, targets and the planner's turn after each frame.
-      {.name = "perception.sustained_hz",
-       .ours = "sustained_merged",
-       .baseline = "sustained_one_by_one",
-       .unit = "Hz",
-       .counter = "hz",
-       .more_is_better = true},
-      // Of the two that the process had then: less where others were at work.
-      {.name = "perception.sustained_cores",
-       .ours = "sustained_merged",
-       .unit = "cores",
-       .counter = "cores",
-       .more_is_better = true},
-      // From a frame's arrival, 15 a second, until fruits and map know it.
-      {.name = "perception.latency_p95", .ours = "latency", .unit = "p95_ms", .counter = "p95_ms"},
-      {.name = "perception.late", .ours = "latency", .unit = "%", .counter = "late_percent"},
-      {.name = "perception.latency_cores",
-       .ours = "latency",
-       .unit = "cores",
-       .counter = "cores",
-       .more_is_better = true},
+      // By the clock, and what it would say if nobody else used the two cores.
+      sustained(""),
+      cores("sustained", "sustained_merged"),
+      sustained("_cpu"),
+      latency(""),
+      late(""),
+      cores("latency", "latency"),
+      latency("_cpu"),
+      late("_cpu"),
       // One thread. Of each frame:
       step("detect"),
       step("fuse"),

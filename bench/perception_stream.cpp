@@ -1,5 +1,6 @@
-// Frames as they come, by the clock: the mission's own FramesOnTheWay, with a camera that plays a
-// film to it, while a planner's worker grows a graph and another thread searches one.
+// Frames as they come: the mission's own FramesOnTheWay, with a camera that plays a film to it,
+// while a planner's worker grows a graph and another thread searches one. By the clock; and by the
+// processor time of two cores, which is what the clock would say if nobody else used them.
 
 #include <benchmark/benchmark.h>
 
@@ -21,6 +22,29 @@ namespace canopeer {
 namespace {
 
 constexpr int kGraphNodes = 1000;  // of the graph that is searched
+
+double cpu_now_s() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+/// Half the processor time of this process, whose threads have enough to do for two cores.
+class TwoCoreClock : public Clock {
+ public:
+  [[nodiscard]] double now_s() const override { return 0.5 * cpu_now_s() - begin_s_; }
+  void charge(double /*compute_s*/) override {}
+  void sleep(double seconds) override {
+    const double until_s = now_s() + seconds;
+    while (now_s() < until_s) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+
+ private:
+  double begin_s_ = 0.5 * cpu_now_s();
+};
+
+/// What the camera's film and the mission go by.
+enum class By { clock, processor_time };
 
 /// Plays the film: so many frames a second, or the next one whenever somebody asks for frames.
 class FilmCamera : public Camera {
@@ -89,16 +113,10 @@ class LatencyKeeper : public Keeper {
   std::vector<double> took_s_;
 };
 
-double cpu_now_s() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
 /// What playing the film came to.
 struct Played {
-  double seconds = 0.0;  ///< by the clock, until the last frame was known and told
-  double cores = 0.0;    ///< that the process had meanwhile
+  double seconds = 0.0;  ///< until the last frame was known and told
+  double cores = 0.0;    ///< that the process had meanwhile, by the clock
   double latency_p95_s = 0.0;
   FrameCounts counts;
   int nodes = 0;     ///< of the planner's graph at the end
@@ -106,13 +124,16 @@ struct Played {
 };
 
 /// `hz`: 0: as fast as frames are taken in. `tell_every_s`: how often the planner hears of them.
-Played play(double hz, double tell_every_s) {
+Played play(By by, double hz, double tell_every_s) {
   static_cast<void>(film());
   const Threads two(2);
   SimulationOptions by_the_clock;
   by_the_clock.realtime = true;
   test::PlanningFixture world(by_the_clock);
   Ports ports = world.simulation.ports();
+  const Clock& wall = *ports.clock;
+  TwoCoreClock processor_time;
+  if (by == By::processor_time) ports.clock = &processor_time;
   FilmCamera camera(*ports.clock, world.frame.trolley, hz);
   ports.camera = &camera;
 
@@ -150,6 +171,7 @@ Played play(double hz, double tell_every_s) {
   time.background().go();
 
   const double begin_s = ports.clock->now_s();
+  const double begin_wall_s = wall.now_s();
   const double begin_cpu_s = cpu_now_s();
   const int searched = search.searches();
   must(frames.set_out("view"));
@@ -157,7 +179,7 @@ Played play(double hz, double tell_every_s) {
   Played played;
   played.counts = must(frames.arrive()).value();
   played.seconds = ports.clock->now_s() - begin_s;
-  played.cores = (cpu_now_s() - begin_cpu_s) / played.seconds;
+  played.cores = (cpu_now_s() - begin_cpu_s) / (wall.now_s() - begin_wall_s);
   played.searches = search.searches() - searched;
   time.background().rest();
   played.nodes = planner->status().graph_nodes;
@@ -176,31 +198,43 @@ void say(benchmark::State& state, const Played& played) {
       100.0 * played.counts.late / (played.counts.late + played.counts.fused);
 }
 
-void sustained(benchmark::State& state, double tell_every_s) {
+void sustained(benchmark::State& state, By by, double tell_every_s) {
   for (auto _ : state) {
-    const Played played = play(0.0, tell_every_s);
+    const Played played = play(by, 0.0, tell_every_s);
     say(state, played);
     state.SetIterationTime(played.seconds);
   }
 }
 
 /// As a mission takes them in.
-void sustained_merged(benchmark::State& state) { sustained(state, OnTheWayOptions().tell_every_s); }
-BENCHMARK(sustained_merged)->Iterations(1)->UseManualTime()->Unit(benchmark::kMillisecond);
-
+void sustained_merged(benchmark::State& state) {
+  sustained(state, By::clock, OnTheWayOptions().tell_every_s);
+}
+void sustained_merged_cpu(benchmark::State& state) {
+  sustained(state, By::processor_time, OnTheWayOptions().tell_every_s);
+}
 /// Each as if it were a view: distances, targets, and the planner told.
-void sustained_one_by_one(benchmark::State& state) { sustained(state, 0.0); }
+void sustained_one_by_one(benchmark::State& state) { sustained(state, By::clock, 0.0); }
+void sustained_one_by_one_cpu(benchmark::State& state) {
+  sustained(state, By::processor_time, 0.0);
+}
+BENCHMARK(sustained_merged)->Iterations(1)->UseManualTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(sustained_one_by_one)->Iterations(1)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(sustained_merged_cpu)->Iterations(1)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(sustained_one_by_one_cpu)->Iterations(1)->UseManualTime()->Unit(benchmark::kMillisecond);
 
 /// Frames at 15 Hz. The best run is that of the lowest 95th percentile.
-void latency(benchmark::State& state) {
+void latency_by(benchmark::State& state, By by) {
   for (auto _ : state) {
-    const Played played = play(kFilmHz, OnTheWayOptions().tell_every_s);
+    const Played played = play(by, kFilmHz, OnTheWayOptions().tell_every_s);
     say(state, played);
     state.SetIterationTime(played.latency_p95_s);
   }
 }
+void latency(benchmark::State& state) { latency_by(state, By::clock); }
+void latency_cpu(benchmark::State& state) { latency_by(state, By::processor_time); }
 BENCHMARK(latency)->Iterations(1)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(latency_cpu)->Iterations(1)->UseManualTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace canopeer

@@ -25,21 +25,24 @@ FILE = ROOT / "bench" / "campaigns" / "frames_on_the_way.csv"
 PROGRAM = os.environ.get("CANOPEER", str(ROOT / "build" / "release" / "bin" / "canopeer"))
 FIGURES = ["fruits_total", "detected", "auc", "surface_f1", "false_positives", "volume_error_half_seen",
            "centre_error_half_seen_m", "frames_fused", "frames_late", "frames_blurred", "frames_alike", "views",
-           "collisions", "plant_contacts", "mission_time_s", "sim_time_s", "wall_time_s"]
+           "collisions", "plant_contacts", "time_offset_s", "time_offset_se_s", "mission_time_s", "sim_time_s", "wall_time_s"]
 KEYS = ["row", "seed"]
 
 
-def row(mission, planner, hz, exposure_ms=5, seeds=10):
-    name = f"{mission} {planner} {hz} Hz" + ("" if exposure_ms == 5 else f" {exposure_ms} ms")
+def row(mission, planner, hz, what="", seeds=10, **extra):
+    """`extra`: further settings, with __ for the dots in their keys; `what` says them in the row's name."""
     settings = {"planner": planner, "time_per_segment_s": 10, "clock": "whole", "frames.on_the_way_hz": hz,
-                "camera.motion_model.exposure_ms": exposure_ms}
-    return {"name": name, "mission": mission, "settings": settings, "seeds": seeds}
+                "camera.motion_model.exposure_ms": 5, **{key.replace("__", "."): extra[key] for key in extra}}
+    return {"name": f"{mission} {planner} {hz} Hz {what}".strip(), "mission": mission, "settings": settings, "seeds": seeds}
 
 
 ROWS = [row("dense_1", planner, hz) for hz in (0, 5, 15) for planner in ("vmp", "random")]
 ROWS += [row("dense_1", planner, 5) for planner in ("rvp", "coverage", "sweep", "drive_by")]
-ROWS += [row("dense_1", "vmp", 5, exposure_ms, 3) for exposure_ms in (2, 10)]
+ROWS += [row("dense_1", "vmp", 5, f"{ms} ms", 3, camera__motion_model__exposure_ms=ms) for ms in (2, 10)]
+ROWS += [row("dense_1", "vmp", 5, "any blur", 3, frames__max_blur_px=0)]
 ROWS += [row("scenario_1", planner, hz) for hz in (0, 5) for planner in ("vmp", "random", "drive_by")]
+ROWS += [row("scenario_1", "vmp", hz, "d435", 5, noise="d435") for hz in (0, 5)]
+ROWS += [row("scenario_1", "vmp", 5, "d435, stamps 30 ms late", 5, noise="d435", camera__motion_model__stamp_offset_ms=30)]
 
 
 def done():
@@ -98,8 +101,9 @@ ROW_LENGTH_M = {"dense_1": 3.0, "scenario_1": 3.0}  # between the first stop and
 
 def table():
     lines = done()
-    print("| world, planner, frames | seeds | found | of | AUC | surface F1 | false | fused / late / blurred | row m/h |")
-    print("|---|---|---|---|---|---|---|---|---|")
+    print("| world, planner, frames | seeds | found | of | AUC | surface F1 | false | volume error | centre error / mm | "
+          "fused / late / blurred | row m/h |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|")
     for one in ROWS:
         mine = [line for line in lines if line["row"] == one["name"]]
         if not mine:
@@ -116,7 +120,8 @@ def table():
         counts = " / ".join(f"{statistics.mean(f):.0f}" for f in frames) if frames[0] else "–"
         speed = 3600 * ROW_LENGTH_M[one["mission"]] / statistics.mean(of("mission_time_s"))
         print(f"| {one['name']} | {len(mine)} | {text('detected', 1)} | {statistics.mean(of('fruits_total')):.0f} | "
-              f"{text('auc', 3)} | {text('surface_f1', 3)} | {statistics.mean(of('false_positives')):.1f} | {counts} | "
+              f"{text('auc', 3)} | {text('surface_f1', 3)} | {statistics.mean(of('false_positives')):.1f} | {statistics.mean(of('volume_error_half_seen')):.3f} | "
+              f"{1e3 * statistics.mean(of('centre_error_half_seen_m')):.1f} | {counts} | "
               f"{speed:.0f} |")
 
 

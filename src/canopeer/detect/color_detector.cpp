@@ -1,7 +1,9 @@
 #include "canopeer/detect/color_detector.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
@@ -24,32 +26,94 @@ cv::Mat hsv_of(const ColorImage& color) {
 
 int hue_byte(double degrees) { return static_cast<int>(std::lround(degrees * 256.0 / 360.0)); }
 
-/// Pixels inside the window; a hue window that starts below 0° wraps around.
-cv::Mat in_window(const cv::Mat& hsv, const ColorWindow& window, double min_saturation) {
-  const double s = 255.0 * min_saturation;
-  const double v = 255.0 * window.min_value;
+/// Which pixels are how much like a fruit, by colour alone; 255: they are.
+struct ColorClasses {
+  cv::Mat sure;
+  cv::Mat pale;  ///< of fruit hue, too pale to be sure
+  /// Those that may be filled in when fruit surrounds them: of fruit hue however pale, or a glaring
+  /// highlight. A stem in front of a fruit is neither.
+  cv::Mat fillable;
+};
+
+/// Ranges of hue, saturation and value, a bit each: a pixel lies in those that all three of its
+/// channels have.
+class ColorRanges {
+ public:
+  /// Bytes from first to last.
+  struct Range {
+    int first = 0;
+    int last = 255;
+  };
+  void add(unsigned bit, const Range& hue, const Range& saturation, const Range& value) {
+    add(hue_, bit, hue);
+    add(saturation_, bit, saturation);
+    add(value_, bit, value);
+  }
+  [[nodiscard]] std::uint64_t of(const std::uint8_t* hsv) const {
+    return hue_[hsv[0]] & saturation_[hsv[1]] & value_[hsv[2]];
+  }
+
+ private:
+  using Bits = std::array<std::uint64_t, 256>;
+  static void add(Bits& bits, unsigned bit, const Range& range) {
+    for (int i = std::max(range.first, 0); i <= std::min(range.last, 255); ++i) {
+      bits[static_cast<std::size_t>(i)] |= std::uint64_t{1} << bit;
+    }
+  }
+  Bits hue_{};
+  Bits saturation_{};
+  Bits value_{};
+};
+
+// A bit for each class of each window, and one for highlights.
+constexpr std::size_t kWindowsAtOnce = 20;
+constexpr unsigned kHighlight = 63;
+enum ColorClass : unsigned { kSure, kPale, kFillable, kClasses };
+
+int at_least(double share) { return static_cast<int>(std::lrint(255.0 * share)); }
+
+/// A hue window that starts below 0° wraps around.
+void add_window(ColorRanges& ranges, unsigned first_bit, const ColorWindow& window) {
+  constexpr double kAnySaturation = 0.1;
   const int low = hue_byte(window.hue_low_deg);
   const int high = hue_byte(window.hue_high_deg);
-  cv::Mat in;
-  cv::inRange(hsv, cv::Scalar(std::max(low, 0), s, v), cv::Scalar(high, 255, 255), in);
-  if (low < 0) {
-    cv::Mat wrapped;
-    cv::inRange(hsv, cv::Scalar(256 + low, s, v), cv::Scalar(std::min(256 + high, 255), 255, 255),
-                wrapped);
-    in |= wrapped;
+  const double saturation[kClasses] = {window.min_saturation, window.min_saturation_at_fruit,
+                                       kAnySaturation};
+  for (unsigned c = 0; c < kClasses; ++c) {
+    const ColorRanges::Range pale{at_least(saturation[c]), 255};
+    const ColorRanges::Range bright{at_least(window.min_value), 255};
+    ranges.add(first_bit + c, {low, high}, pale, bright);
+    if (low < 0) ranges.add(first_bit + c, {256 + low, 256 + high}, pale, bright);
   }
-  return in;
 }
 
-/// Pixels inside any of the windows; `saturation_of` tells how pale each may be.
-template <typename SaturationOf>
-cv::Mat in_windows(const cv::Mat& hsv, const ColorDetectorOptions& options,
-                   const SaturationOf& saturation_of) {
-  cv::Mat in = cv::Mat::zeros(hsv.rows, hsv.cols, CV_8U);
-  for (const ColorWindow& window : options.windows) {
-    in |= in_window(hsv, window, saturation_of(window));
+ColorClasses classes_of(const cv::Mat& hsv, const ColorDetectorOptions& options) {
+  constexpr double kGlaring = 0.9;
+  const auto nothing = [&] { return cv::Mat(cv::Mat::zeros(hsv.rows, hsv.cols, CV_8U)); };
+  ColorClasses classes{nothing(), nothing(), nothing()};
+  std::uint64_t of_class[kClasses] = {};
+  for (unsigned bit = 0; bit < kClasses * kWindowsAtOnce; ++bit) {
+    of_class[bit % kClasses] |= std::uint64_t{1} << bit;
   }
-  return in;
+  of_class[kFillable] |= std::uint64_t{1} << kHighlight;
+  const auto& windows = options.windows;
+  for (std::size_t first = 0; first < windows.size(); first += kWindowsAtOnce) {
+    ColorRanges ranges;
+    ranges.add(kHighlight, {}, {0, 120}, {at_least(kGlaring), 255});
+    for (std::size_t i = first; i < std::min(first + kWindowsAtOnce, windows.size()); ++i) {
+      add_window(ranges, static_cast<unsigned>(kClasses * (i - first)), windows[i]);
+    }
+    const std::uint8_t* pixel = hsv.ptr();
+    const std::size_t count = hsv.total();
+    for (std::size_t i = 0; i < count; ++i, pixel += 3) {
+      const std::uint64_t in = ranges.of(pixel);
+      if (in == 0) continue;
+      if ((in & of_class[kSure]) != 0) classes.sure.data[i] = 255;
+      if ((in & of_class[kPale]) != 0) classes.pale.data[i] = 255;
+      if ((in & of_class[kFillable]) != 0) classes.fillable.data[i] = 255;
+    }
+  }
+  return classes;
 }
 
 cv::Mat disc(int radius) {
@@ -63,42 +127,30 @@ void remove_pixels_without_depth(const DepthImage& depth, cv::Mat& mask) {
   }
 }
 
-/// Pixels that may be filled in when fruit surrounds them: of fruit hue however pale, or a glaring
-/// highlight. A stem in front of a fruit is neither.
-cv::Mat fillable(const cv::Mat& hsv, const ColorDetectorOptions& options) {
-  constexpr double kAnySaturation = 0.1;
-  constexpr double kGlaring = 0.9 * 255.0;
-  cv::Mat glaring;
-  cv::inRange(hsv, cv::Scalar(0, 0, kGlaring), cv::Scalar(255, 120, 255), glaring);
-  return glaring | in_windows(hsv, options, [](const ColorWindow&) { return kAnySaturation; });
-}
-
 /// Surely fruit-coloured pixels, paler ones (highlights) that touch them, and holes.
 cv::Mat fruit_colored(const cv::Mat& hsv, const ColorDetectorOptions& options) {
-  cv::Mat sure =
-      in_windows(hsv, options, [](const ColorWindow& window) { return window.min_saturation; });
+  const ColorClasses classes = classes_of(hsv, options);
+  cv::Mat sure = classes.sure;
   if (options.opening_radius_px > 0) {
     cv::morphologyEx(sure, sure, cv::MORPH_OPEN, disc(options.opening_radius_px));
   }
-  const cv::Mat pale = in_windows(
-      hsv, options, [](const ColorWindow& window) { return window.min_saturation_at_fruit; });
   cv::Mat reach;
   constexpr int kSteps = 3;
   for (int step = 0; step < kSteps; ++step) {
     cv::dilate(sure, reach, disc(1));
-    sure |= reach & pale;
+    sure |= reach & classes.pale;
   }
   if (options.closing_radius_px > 0) {
     cv::Mat closed;
     cv::morphologyEx(sure, closed, cv::MORPH_CLOSE, disc(options.closing_radius_px));
-    sure |= closed & fillable(hsv, options);
+    sure |= closed & classes.fillable;
   }
   return sure;
 }
 
 Mask to_mask(const cv::Mat& image) {
   Mask mask(image.cols, image.rows);
-  for (std::size_t i = 0; i < mask.pixels().size(); ++i) mask.pixels()[i] = image.data[i] != 0;
+  std::copy_n(image.data, mask.pixels().size(), mask.pixels().begin());
   return mask;
 }
 
@@ -132,8 +184,7 @@ std::vector<bool> in_color_windows(std::span<const Rgb> colors,
   ColorDetectorOptions counting = options;
   std::erase_if(counting.windows,
                 [](const ColorWindow& w) { return w.label == PixelLabel::green_fruit; });
-  const cv::Mat in = in_windows(hsv_of(row), counting,
-                                [](const ColorWindow& window) { return window.min_saturation; });
+  const cv::Mat in = classes_of(hsv_of(row), counting).sure;
   std::vector<bool> result;
   for (int i = 0; i < in.cols; ++i) result.push_back(in.at<std::uint8_t>(0, i) != 0);
   return result;
@@ -155,25 +206,20 @@ Expected<Detection> ColorDetector::detect(const RgbdFrame& frame) const {
   const cv::Mat hsv = hsv_of(frame.color);
   cv::Mat colored = fruit_colored(hsv, options_);
   remove_pixels_without_depth(frame.depth, colored);
-  const BlobLabels pieces = label_blobs(frame, to_mask(colored), options_.depth_step_m);
+  const Mask mask = to_mask(colored);
+  const BlobLabels pieces = label_blobs(frame, mask, options_.depth_step_m);
 
-  for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u) {
-      const int label = pieces.label.at(u, v);
-      if (label < 0) continue;
-      const Blob& blob = pieces.blobs[static_cast<std::size_t>(label)];
-      if (blob.pixels < options_.min_blob_px || blob.area_cm2 < options_.min_blob_area_cm2) {
-        continue;
-      }
-      const auto pixel = hsv.at<cv::Vec3b>(v, u);
-      const ColorWindow& window = nearest_window(pixel[0], options_.windows);
-      detection.label.at(u, v) = window.label;
-      if (counted_fruit(window.label)) {
-        detection.fruit.at(u, v) = static_cast<std::uint8_t>(window.label);
-      }
-      detection.confidence.at(u, v) = confidence_of(pixel[1], blob, window);
+  for_each_pixel_in(mask, [&](int u, int v) {
+    const Blob& blob = pieces.blobs[static_cast<std::size_t>(pieces.label.at(u, v))];
+    if (blob.pixels < options_.min_blob_px || blob.area_cm2 < options_.min_blob_area_cm2) return;
+    const auto pixel = hsv.at<cv::Vec3b>(v, u);
+    const ColorWindow& window = nearest_window(pixel[0], options_.windows);
+    detection.label.at(u, v) = window.label;
+    if (counted_fruit(window.label)) {
+      detection.fruit.at(u, v) = static_cast<std::uint8_t>(window.label);
     }
-  }
+    detection.confidence.at(u, v) = confidence_of(pixel[1], blob, window);
+  });
   return detection;
 }
 

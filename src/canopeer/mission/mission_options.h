@@ -34,10 +34,10 @@ struct OnTheWayOptions {
   double hz = 0.0;  ///< so many a second at most; 0: none
   /// A frame is left out when its image moved farther than this during the exposure, px, where it
   /// moved fastest, at the median distance of what the last frame showed. 0: any blur.
-  double max_blur_px = 1.0;
+  double max_blur_px = 3.0;
   double exposure_s = 0.005;  ///< what blur is reckoned with
   CameraIntrinsics camera;    ///< the same
-  /// The arm moves no faster than `max_blur_px` allows at `sharp_distance_m`.
+  /// The arm moves to views no faster than `max_blur_px` allows at `sharp_distance_m`.
   bool keep_sharp = false;
   double sharp_distance_m = 0.5;
   /// A frame is left out when the camera has moved less than both since the last one that was not.

@@ -15,15 +15,18 @@ namespace {
 std::optional<PixelCounts> score_pixels(const RgbdFrame& frame, const Mask& found) {
   const auto& labels = frame.true_labels.width() > 0 ? frame.true_labels : frame.labels;
   if (labels.width() != found.width() || labels.height() != found.height()) return std::nullopt;
-  Mask truth(found.width(), found.height());
-  Mask blind(found.width(), found.height());
-  for (std::size_t i = 0; i < truth.pixels().size(); ++i) {
-    truth.pixels()[i] = counted_fruit(labels.pixels()[i]);
-    blind.pixels()[i] = !(frame.depth.pixels()[i] > 0.0F);
+  int right = 0;
+  int all_found = 0;
+  int all_true = 0;
+  for (std::size_t i = 0; i < found.pixels().size(); ++i) {
+    const int seen = frame.depth.pixels()[i] > 0.0F;
+    const int is_found = seen & static_cast<int>(found.pixels()[i] != 0);
+    const int is_true = seen & static_cast<int>(counted_fruit(labels.pixels()[i]));
+    right += is_found & is_true;
+    all_found += is_found;
+    all_true += is_true;
   }
-  PixelCounts counts;
-  counts.add(found, truth, &blind);
-  return counts;
+  return PixelCounts{right, all_found - right, all_true - right};
 }
 
 /// Both sorted, and so is what comes of them.

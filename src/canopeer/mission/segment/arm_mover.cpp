@@ -48,7 +48,9 @@ ArmMover::ArmMover(const RobotModel& robot, const Ports& ports, Traveller& trave
 Expected<MotionEnd> ArmMover::move(const std::string& kind,
                                    const std::vector<Configuration>& waypoints,
                                    const CollisionChecker& checker) {
-  const JointPath path = without_needless_stops(waypoints, checker);
+  // Who goes home is in a hurry: what is sharp on the way is so by itself.
+  const auto sharp = kind == "view" ? sharp_ : std::nullopt;
+  const JointPath path = without_needless_stops({waypoints, {}, sharp}, checker);
   MotionEvent motion;
   motion.kind = kind;
   motion.segment = cursor_.segment;
@@ -105,13 +107,12 @@ Expected<void> ArmMover::mind(const MotionOutcome& outcome) {
               " motions in a row did not arrive; the last " + what);
 }
 
-JointPath ArmMover::without_needless_stops(const std::vector<Configuration>& waypoints,
+JointPath ArmMover::without_needless_stops(const JointPath& stopping,
                                            const CollisionChecker& checker) {
-  if (waypoints.size() < 3) return {waypoints, {}, sharp_};
+  if (stopping.waypoints.size() < 3) return stopping;
   int states = 0;
-  JointPath path = time_.timer().time("arm", [&] {
-    return round_corners({waypoints, {}, sharp_}, robot_, checker, states);
-  });
+  JointPath path =
+      time_.timer().time("arm", [&] { return round_corners(stopping, robot_, checker, states); });
   WorkMeter work;
   work.add(Work::motion_plan, states);
   time_.pay(work);

@@ -15,7 +15,8 @@ namespace canopeer {
 /// goes on, and frames are taken where they are wanted.
 class ArmMover {
  public:
-  /// All outlive it; `cursor` is told how long the arm stood and moved. `sharp`: of all motions.
+  /// All outlive it; `cursor` is told how long the arm stood and moved. `sharp`: of motions
+  /// to views.
   ArmMover(const RobotModel& robot, const Ports& ports, Traveller& traveller, Timekeeper& time,
            FramesOnTheWay& frames, EventHub& events, MissionCursor& cursor,
            const std::optional<ImageMotionLimit>& sharp);
@@ -37,7 +38,7 @@ class ArmMover {
   [[nodiscard]] Expected<void> drive(const TrolleyState& goal, double max_travel_m_s = 0.0);
 
  private:
-  [[nodiscard]] JointPath without_needless_stops(const std::vector<Configuration>& waypoints,
+  [[nodiscard]] JointPath without_needless_stops(const JointPath& stopping,
                                                  const CollisionChecker& checker);
   [[nodiscard]] Expected<void> drive_looking(const TrolleyState& goal, double max_travel_m_s,
                                              MotionEvent& motion);
