@@ -181,6 +181,23 @@ TEST_F(OnTheWay, KeptSharpTheArmMovesNoFasterThanTheLimit) {
   }
 }
 
+TEST_F(OnTheWay, OnTheWallClockAThreadTakesThemIn) {
+  options_.segments.resize(1);
+  options_.segment_time_s = 3.0;
+  options_.background_workers = 1;
+  SimulationOptions simulated;
+  simulated.realtime = true;
+  const RobotModel& robot = test::test_robot();
+  Simulation simulation(robot, scene_, robot.home("side_1"), TrolleyState{1.0, 0.0}, simulated);
+  const auto outcome = run(simulation, simulation.ports());
+  ASSERT_TRUE(outcome.has_value()) << outcome.error().message;
+  EXPECT_EQ(static_cast<int>(record_.frames.size()), counts().fused);
+  EXPECT_GT(record_.frames.size() + static_cast<std::size_t>(counts().late), 0U);
+  for (const FrameEvent& frame : record_.frames) {
+    EXPECT_NE(motion_at(record_, frame.t_s), nullptr) << frame.t_s;
+  }
+}
+
 TEST_F(OnTheWay, ACameraThatGivesNoneEndsTheRunWithAWord) {
   class StillCamera : public Camera {
    public:
