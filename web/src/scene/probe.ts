@@ -80,8 +80,6 @@ export class SceneProbe {
         return world.map.somewhere(1);
       case "roi":
         return world.map.somewhere(2);
-      case "onTheWay":
-        return world.looks.somewhere();
       case "fruits":
         return world.fruits.fruits[0]?.centre ?? [0, 0, 0];
       default:

@@ -59,14 +59,6 @@ export class ViewMarks {
     mesh.count = upperBound(times, t);
   }
 
-  /** A point on one of them, for tests. */
-  somewhere(): [number, number, number] {
-    const at = new THREE.Matrix4();
-    this.mesh?.getMatrixAt(0, at);
-    const inside = new THREE.Vector3(0, 0, 0.02).applyMatrix4(at);
-    return [inside.x, inside.y, inside.z];
-  }
-
   paint(palette: Palette): void {
     this.palette = palette;
     this.made = 0;
