@@ -79,21 +79,29 @@ def campaign(arguments):
     lines = done()
     there = {(line["row"], int(line["seed"])) for line in lines}
     todo = [(one, seed) for seed in range(first, last + 1) for one in ROWS
-            if seed < first + one["seeds"] and arguments.rows in one["name"] and (one["name"], seed) not in there]
+            if seed <= one["seeds"] and arguments.rows in one["name"] and (one["name"], seed) not in there]
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         runs = {pool.submit(run, one, seed): one["name"] for one, seed in todo}
         for number, finished in enumerate(concurrent.futures.as_completed(runs), 1):
-            lines.append(finished.result())
+            try:
+                lines.append(finished.result())
+            except (subprocess.CalledProcessError, OSError, ValueError) as error:  # the others go on
+                print(f"{number} of {len(todo)}: {runs[finished]}: {error}", flush=True)
+                continue
             write(lines)
             print(f"{number} of {len(todo)}: {runs[finished]}", flush=True)
+
+
+def average(values):
+    return statistics.mean(values) if values else math.nan
 
 
 def mean(values):
     """With half the width of the 95 % interval of Student's t."""
     if len(values) < 2:
-        return values[0], math.nan
+        return (values[0] if values else math.nan), math.nan
     t = {2: 12.7, 3: 4.30, 4: 3.18, 5: 2.78, 6: 2.57, 7: 2.45, 8: 2.36, 9: 2.31, 10: 2.26}.get(len(values), 2.1)
-    return statistics.mean(values), t * statistics.stdev(values) / math.sqrt(len(values))
+    return average(values), t * statistics.stdev(values) / math.sqrt(len(values))
 
 
 ROW_LENGTH_M = {"dense_1": 3.0, "scenario_1": 3.0}  # between the first stop and the last, both sides looked at
@@ -117,11 +125,11 @@ def table():
             return f"{centre:.{digits}f} ± {half:.{digits}f}"
 
         frames = [of(f"frames_{what}") for what in ("fused", "late", "blurred")]
-        counts = " / ".join(f"{statistics.mean(f):.0f}" for f in frames) if frames[0] else "–"
-        speed = 3600 * ROW_LENGTH_M[one["mission"]] / statistics.mean(of("mission_time_s"))
-        print(f"| {one['name']} | {len(mine)} | {text('detected', 1)} | {statistics.mean(of('fruits_total')):.0f} | "
-              f"{text('auc', 3)} | {text('surface_f1', 3)} | {statistics.mean(of('false_positives')):.1f} | {statistics.mean(of('volume_error_half_seen')):.3f} | "
-              f"{1e3 * statistics.mean(of('centre_error_half_seen_m')):.1f} | {counts} | "
+        counts = " / ".join(f"{average(f):.0f}" for f in frames) if frames[0] else "–"
+        speed = 3600 * ROW_LENGTH_M[one["mission"]] / average(of("mission_time_s"))
+        print(f"| {one['name']} | {len(mine)} | {text('detected', 1)} | {average(of('fruits_total')):.0f} | "
+              f"{text('auc', 3)} | {text('surface_f1', 3)} | {average(of('false_positives')):.1f} | {average(of('volume_error_half_seen')):.3f} | "
+              f"{1e3 * average(of('centre_error_half_seen_m')):.1f} | {counts} | "
               f"{speed:.0f} |")
 
 

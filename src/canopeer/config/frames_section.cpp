@@ -15,7 +15,10 @@ void read_frames(YamlMap& file, const CameraIntrinsics& camera, double exposure_
   o.exposure_s = frames.number("exposure_ms", exposure_ms, {0.01, 1000.0}) / 1e3;
   // These two are nothing without it.
   const bool sharp = mission.planner == "drive_by" || mission.planner == "sweep";
-  o.keep_sharp = frames.boolean("keep_sharp", sharp);
+  o.keep_sharp = frames.boolean("keep_sharp", sharp && o.max_blur_px > 0.0);
+  if (o.keep_sharp && o.max_blur_px <= 0.0) {
+    frames.complain("keep_sharp", "expected a max_blur_px above 0 with it");
+  }
   o.sharp_distance_m = frames.number("sharp_distance_m", o.sharp_distance_m, {0.05, 10.0});
   o.new_after_m = frames.number("new_after_m", o.new_after_m, {0.0, 10.0});
   o.new_after_rad =

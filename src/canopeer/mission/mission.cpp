@@ -72,6 +72,10 @@ struct Mission::State {
     const auto& plan = options.segments[static_cast<std::size_t>(index)];
     return robot.model.home("side_" + std::to_string(plan.side));
   }
+  /// Nothing that is seen now counts.
+  [[nodiscard]] bool over() const {
+    return !deadlines_s.empty() && ports.clock->now_s() >= deadlines_s.back() + cursor.held_s;
+  }
   [[nodiscard]] int segments() const { return static_cast<int>(options.segments.size()); }
 
   Expected<void> restore(MissionState state);
@@ -137,6 +141,7 @@ Expected<void> Mission::end() {
   if (s.phase == State::Phase::ended) return fail("the mission has ended");
   s.phase = State::Phase::ended;
   const bool interrupted = s.cursor.stopped || s.cursor.next != Step::done;
+  if (s.frames) s.frames->abandon();
   s.segment.reset();
   s.perception.finish(s.timer);
   const double end_s = s.ports.clock->now_s();
@@ -163,6 +168,12 @@ Expected<void> Mission::State::prepare() {
                                             cursor);
   arm = std::make_unique<ArmMover>(robot.model, ports, traveller, *time, *frames, events, cursor,
                                    options.on_the_way.limit());
+  if (frames->wanted()) {  // said before anything moves
+    if (auto ok = ports.camera->stream(options.on_the_way.hz); !ok) {
+      return fail_in("camera", ok.error());
+    }
+    if (auto ok = ports.camera->stream(0.0); !ok) return fail_in("camera", ok.error());
+  }
   if (traveller.state().way.empty()) traveller.forget_way(ports.arm->configuration());
   return {};
 }
@@ -180,6 +191,7 @@ Expected<void> Mission::State::take_step() {
     }
     return do_step();
   } catch (const std::exception& error) {
+    if (frames) frames->abandon();
     return fail(std::string("an exception: ") + error.what());
   }
 }
@@ -208,8 +220,9 @@ Expected<void> Mission::State::drive() {
 }
 
 Expected<void> Mission::State::begin() {
-  cursor.next = cursor.stopped ? Step::done : Step::decide;
-  if (cursor.stopped) return {};
+  const bool ends = cursor.stopped || over();
+  cursor.next = ends ? Step::done : Step::decide;
+  if (ends) return {};
   segment.reset();
   segment = std::make_unique<SegmentRunner>(tools(), cursor.segment);
   return segment->begin();
@@ -229,7 +242,7 @@ Expected<void> Mission::State::go_home() {
   if (!end) return tl::unexpected(end.error());
   // What was withheld stays so in a dry run: on with the next segment, from where the arm is.
   if (*end != MotionEnd::arrived && *end != MotionEnd::withheld) return {};  // once more
-  const bool last = cursor.segment + 1 == segments();
+  const bool last = cursor.segment + 1 == segments() || over();
   cursor.next = last || cursor.stopped ? Step::done : Step::drive;
   if (cursor.next == Step::drive) ++cursor.segment;
   return events.emit(WorkDone{time->work_items()});

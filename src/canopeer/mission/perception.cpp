@@ -58,6 +58,7 @@ void Perception::move_field(const Vec3& base_world, const Box& known_free_world)
   around.assumed_free = known_free_world;
   field_.emplace(around, map_.resolution_m());
   field_->rebuild(map_);
+  field_behind_.clear();
 }
 
 Expected<Observation> Perception::observe(const RgbdFrame& frame, const Box& region_world,
@@ -77,6 +78,7 @@ Expected<Sighting> Perception::take_in(const RgbdFrame& frame, WorkMeter& work, 
   seen.pixels = score_pixels(frame, fruit);
   seen.fused = timer.time("fuse", [&] { return fuse(frame, fruit); });
   add_to(unsettled_, seen.fused.changed);
+  add_to(field_behind_, seen.fused.changed);
   timer.time("fruit map", [&] { update_fruits(frame, fruit); });
   work.add(Work::detect_frame);
   work.add(Work::fuse_point, seen.fused.fused_points);
@@ -87,10 +89,11 @@ Expected<Sighting> Perception::take_in(const RgbdFrame& frame, WorkMeter& work, 
 MapChange Perception::settle(const Box& region_world, WorkMeter& work, StageTimer& timer) {
   MapChange change;
   change.blocks = std::exchange(unsettled_, {});
-  timer.time("distance field", [&] { update_distances(change.blocks); });
+  const std::vector<BlockKey> behind = std::exchange(field_behind_, {});
+  timer.time("distance field", [&] { update_distances(behind); });
   change.targets =
       timer.time("targets", [&] { return update_targets(region_world, change.blocks); });
-  work.add(Work::field_block, static_cast<std::int64_t>(change.blocks.size()));
+  work.add(Work::field_block, static_cast<std::int64_t>(behind.size()));
   work.add(Work::target_block, static_cast<std::int64_t>(map_.block_keys(region_world).size()));
   return change;
 }

@@ -44,8 +44,7 @@ class Perception {
   /// unknown space blocks, `known_free_world` is free before anything was seen of it.
   void move_field(const Vec3& base_world, const Box& known_free_world = Box());
 
-  /// All five steps. The fruit map, which nobody plans with, is brought up to date aside: its work
-  /// is not counted. The error is the detector's.
+  /// All five steps. The error is the detector's.
   [[nodiscard]] Expected<Observation> observe(const RgbdFrame& frame, const Box& region_world,
                                               WorkMeter& work, StageTimer& timer);
 
@@ -90,7 +89,8 @@ class Perception {
   std::optional<DistanceField> field_;
   std::optional<FrontierIndex> frontiers_;  // of the region asked for last
   FruitMap fruits_;
-  std::vector<BlockKey> unsettled_;  // changed by frames since the last settling
+  std::vector<BlockKey> unsettled_;     // changed by frames since the last settling
+  std::vector<BlockKey> field_behind_;  // the same, or since the field was made anew
 };
 
 }  // namespace canopeer

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "canopeer/record/fruit_course.h"
+
 namespace canopeer {
 namespace {
 
@@ -55,16 +57,6 @@ struct Line {
   }
 };
 
-/// Of the last frame, on the way or not.
-std::vector<FruitSnapshot> last_fruits(const RunRecord& record) {
-  const bool view = !record.views.empty();
-  const bool frame = !record.frames.empty();
-  if (frame && (!view || record.frames.back().t_s > record.views.back().t_s)) {
-    return record.frames.back().fruits;
-  }
-  return view ? record.views.back().fruits : std::vector<FruitSnapshot>();
-}
-
 }  // namespace
 
 Expected<RecordKeeper> RecordKeeper::create(const std::filesystem::path& run_dir,
@@ -88,7 +80,9 @@ Expected<RecordKeeper> RecordKeeper::resume(const std::filesystem::path& run_dir
                 there.planner + " seed " + std::to_string(there.seed) + ", canopeer " +
                 there.canopeer_version);
   }
-  auto writer = RecordWriter::resume(run_dir, bytes, last_fruits(*record));
+  const std::vector<FruitsAtTime> course = fruit_course(*record);
+  auto writer = RecordWriter::resume(
+      run_dir, bytes, course.empty() ? std::vector<FruitSnapshot>() : *course.back().fruits);
   if (!writer) return tl::unexpected(writer.error());
   record->header = header;
   return RecordKeeper(std::move(*writer), std::move(*record));

@@ -8,7 +8,7 @@ std::vector<FruitsAtTime> fruit_course(const RunRecord& record) {
   auto frame = record.frames.begin();
   const auto add_frame = [&] { course.push_back({frame->t_s, &frame->fruits, true}); };
   for (const ViewEvent& view : record.views) {
-    for (; frame != record.frames.end() && frame->t_s <= view.t_s; ++frame) add_frame();
+    for (; frame != record.frames.end() && frame->view <= view.view; ++frame) add_frame();
     course.push_back({view.t_s, &view.fruits, false});
   }
   for (; frame != record.frames.end(); ++frame) add_frame();

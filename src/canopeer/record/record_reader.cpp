@@ -72,6 +72,7 @@ class RecordReader {
 
   void add(FrameEvent frame) {
     last_s_ = std::max(last_s_, frame.t_s);
+    frame.view = static_cast<int>(record_.views.size());
     fruits_ = frame.fruits;
     record_.frames.push_back(std::move(frame));
   }

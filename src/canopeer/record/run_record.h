@@ -89,6 +89,7 @@ struct FrameCounts {
 /// One frame taken while the arm or the trolley moved, and fused.
 struct FrameEvent {
   int segment = 0;
+  int view = 0;                            ///< so many views were taken before it
   std::string during;                      ///< the kind of the motion: "view", "home", "trolley"
   double t_s = 0.0;                        ///< when it was taken, mission time
   Pose T_world_camera = Pose::Identity();  ///< as the robot said

@@ -29,11 +29,11 @@ std::string timeline_csv(const RunRecord& record) {
       "realised_gain,roi_voxels,graph_nodes,graph_edges,x_m,y_m,z_m,pixel_precision,pixel_recall,"
       "pixel_iou\n";
   auto frame = record.frames.begin();
-  const auto frames_until = [&](double t_s) {
-    for (; frame != record.frames.end() && frame->t_s <= t_s; ++frame) csv += row_of(*frame);
+  const auto frames_before = [&](int view) {
+    for (; frame != record.frames.end() && frame->view <= view; ++frame) csv += row_of(*frame);
   };
   for (const ViewEvent& view : record.views) {
-    frames_until(view.t_s);
+    frames_before(view.view);
     const Vec3 camera = view.T_world_camera.translation();
     const std::string predicted =
         view.predicted_gain ? fmt::format("{:.1f}", *view.predicted_gain) : std::string();
@@ -44,7 +44,7 @@ std::string timeline_csv(const RunRecord& record) {
                     view.realised_gain, view.roi_voxels, view.graph_nodes, view.graph_edges,
                     camera.x(), camera.y(), camera.z(), text_of(view.pixels));
   }
-  frames_until(std::numeric_limits<double>::infinity());
+  frames_before(std::numeric_limits<int>::max());
   return csv;
 }
 

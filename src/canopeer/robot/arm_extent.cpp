@@ -20,10 +20,10 @@ Box arm_extent(const RobotModel& robot, const Configuration& q) {
   return extent;
 }
 
-bool keeps_to_aisle(const RobotModel& robot, const Configuration& q) {
+bool keeps_to_aisle(const RobotModel& robot, const Configuration& q, double margin_m) {
   const Box& aisle = robot.setup().known_free;
   const Box arm = arm_extent(robot, q);
-  if (aisle.isEmpty()) return false;
+  if (aisle.isEmpty() || arm.isEmpty()) return false;
   const Pose from = robot.T_world_base({0.0, 0.0});
   const Pose to = robot.T_world_base({1.0, 0.0});
   const Vec3 travel_base = from.linear().transpose() * (to.translation() - from.translation());
@@ -31,7 +31,8 @@ bool keeps_to_aisle(const RobotModel& robot, const Configuration& q) {
   travel_base.cwiseAbs().maxCoeff(&along);
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     if (axis == along) continue;
-    if (arm.min()[axis] < aisle.min()[axis] || arm.max()[axis] > aisle.max()[axis]) return false;
+    if (arm.min()[axis] < aisle.min()[axis] + margin_m) return false;
+    if (arm.max()[axis] > aisle.max()[axis] - margin_m) return false;
   }
   return true;
 }

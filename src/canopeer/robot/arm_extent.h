@@ -10,7 +10,9 @@ namespace canopeer {
 
 /// Whether the trolley may drive along the row with the arm at `q`: across the row and in height
 /// nothing of the arm is outside of the place where nothing but the robot is
-/// (RobotSetup::known_free). False where no such place is known.
-[[nodiscard]] bool keeps_to_aisle(const RobotModel& robot, const Configuration& q);
+/// (RobotSetup::known_free) or nearer to its border than `margin_m`. False where no such place is
+/// known, or nothing of the arm has a shape.
+[[nodiscard]] bool keeps_to_aisle(const RobotModel& robot, const Configuration& q,
+                                  double margin_m = 0.0);
 
 }  // namespace canopeer

@@ -187,12 +187,10 @@ class Simulation::SimCamera : public Camera {
  public:
   explicit SimCamera(State& state) : state_(state) {}
 
+  /// It arrives after the camera's latency.
   Expected<RgbdFrame> capture() override {
-    const auto pause = state_.time.pause();
-    RgbdFrame frame = state_.sensor.capture(
-        state_.robot.T_world_base(state_.trolley) * state_.robot.T_base_camera(state_.q),
-        state_.frames++);
-    frame.time_s = state_.time.now_s();
+    RgbdFrame frame = exposed_now();
+    state_.time.pass_until(frame.time_s + state_.options.sensor.motion.latency_s);
     return frame;
   }
 
@@ -216,6 +214,15 @@ class Simulation::SimCamera : public Camera {
   }
 
  private:
+  RgbdFrame exposed_now() {
+    const auto pause = state_.time.pause();
+    RgbdFrame frame = state_.sensor.capture(
+        state_.robot.T_world_base(state_.trolley) * state_.robot.T_base_camera(state_.q),
+        state_.frames++);
+    frame.time_s = state_.time.now_s();
+    return frame;
+  }
+
   /// Its images are rendered when somebody wants them.
   StreamedFrame frame_at(double exposed_s) {
     const std::uint64_t number = state_.frames++;

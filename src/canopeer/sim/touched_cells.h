@@ -3,7 +3,7 @@
 #include <unordered_map>
 
 #include "canopeer/geometry/triangle_mesh.h"
-#include "canopeer/map/storage/block.h"
+#include "canopeer/map/voxel_map.h"
 
 namespace canopeer {
 

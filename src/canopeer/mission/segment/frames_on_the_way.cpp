@@ -12,6 +12,7 @@ namespace canopeer {
 namespace {
 
 constexpr std::chrono::milliseconds kNextLook(3);  // for frames, on the wall clock
+constexpr double kJustSharp = 1.02;                // who moves at the limit keeps to it
 
 /// Of every 16th pixel each way; 0: it shows nothing.
 double median_depth_m(const DepthImage& depth) {
@@ -53,10 +54,9 @@ Expected<void> FramesOnTheWay::set_out(const std::string& during) {
   open_ = counts();
   if (!open_) return {};
   during_ = during;
+  arrived_s_ = std::numeric_limits<double>::infinity();
   T_last_ = robot_.T_world_base(ports_.trolley->state()) *
             robot_.T_base_camera(ports_.arm->configuration());
-  double& distance_m = cursor_.seen_distance_m;
-  if (distance_m <= 0.0) distance_m = options_.on_the_way.sharp_distance_m;
   if (auto ok = ports_.camera->stream(options_.on_the_way.hz); !ok) {
     return fail_in("camera", ok.error());
   }
@@ -82,25 +82,37 @@ Expected<void> FramesOnTheWay::go_along(double duration_s) {
     }
     if (auto ok = fetch(); !ok) return ok;
     if (auto ok = work_off(time_.now_s()); !ok) return ok;
+    if (free_s_ > time_.now_s()) continue;  // the last one is not done yet
     if (auto ok = tell(); !ok) return ok;
   }
   return {};
 }
 
+void FramesOnTheWay::abandon() {
+  open_ = false;
+  stop_thread();
+  failure_ = {};
+  waiting_.clear();
+}
+
+void FramesOnTheWay::stop_thread() {
+  if (!thread_.joinable()) return;
+  thread_.request_stop();
+  thread_.join();
+}
+
 Expected<std::optional<FrameCounts>> FramesOnTheWay::arrive() {
   if (!open_) return std::optional<FrameCounts>();
   open_ = false;
-  if (thread_.joinable()) {
-    thread_.request_stop();
-    thread_.join();
-    if (!failure_) return tl::unexpected(std::exchange(failure_, {}).error());
-  }
+  arrived_s_ = time_.now_s();
+  stop_thread();
+  if (!failure_) return tl::unexpected(std::exchange(failure_, {}).error());
   if (auto ok = fetch(); !ok) return tl::unexpected(ok.error());
   if (auto ok = work_off(std::numeric_limits<double>::infinity()); !ok) {
     return tl::unexpected(ok.error());
   }
-  if (time_.simulated()) ports_.clock->sleep(std::max(0.0, free_s_ - time_.now_s()));
   if (auto ok = tell(); !ok) return tl::unexpected(ok.error());
+  if (time_.simulated()) ports_.clock->sleep(std::max(0.0, free_s_ - time_.now_s()));
   if (auto ok = ports_.camera->stream(0.0); !ok) return tl::unexpected(ok.error());
   time_.timer().add(std::exchange(stages_, {}));
   return std::optional(counts_);
@@ -144,16 +156,15 @@ Expected<void> FramesOnTheWay::fetch() {
 }
 
 void FramesOnTheWay::admit(StreamedFrame frame) {
+  if (frame.time_s > arrived_s_) return;  // from rest: the next view is from there
   if (options_.mission_time_s > 0.0 && frame.time_s > end_s()) return;
-  if (static_cast<int>(waiting_.size()) >= options_.on_the_way.queue) {
-    ++counts_.late;
-    return;
-  }
   double blur_px = 0.0;
   if (alike(frame)) {
     ++counts_.alike;
   } else if (too_blurred(frame, &blur_px)) {
     ++counts_.blurred;
+  } else if (static_cast<int>(waiting_.size()) >= options_.on_the_way.queue) {
+    ++counts_.late;
   } else {
     T_last_ = frame.T_world_camera;
     waiting_.push_back(std::move(frame));
@@ -168,8 +179,10 @@ bool FramesOnTheWay::alike(const StreamedFrame& frame) const {
 
 bool FramesOnTheWay::too_blurred(const StreamedFrame& frame, double* blur_px) const {
   const OnTheWayOptions& o = options_.on_the_way;
-  *blur_px = o.exposure_s * image_speed(frame.twist, frame.intrinsics, cursor_.seen_distance_m);
-  return o.max_blur_px > 0.0 && *blur_px > o.max_blur_px;
+  // Nearer than the distance looked at is a leaf in the way: no reason to look at nothing.
+  const double distance_m = std::max(cursor_.seen_distance_m, o.sharp_distance_m);
+  *blur_px = o.exposure_s * image_speed(frame.twist, frame.intrinsics, distance_m);
+  return o.max_blur_px > 0.0 && *blur_px > o.max_blur_px * kJustSharp;
 }
 
 /// In simulated time: frames whose turn comes before `until_s`.
@@ -207,6 +220,7 @@ Expected<void> FramesOnTheWay::take_in(const StreamedFrame& streamed) {
   event.twist = streamed.twist;
   FrameEvent& told = event.frame;
   told.segment = cursor_.segment;
+  told.view = cursor_.views;
   told.during = during_;
   told.t_s = frame->time_s;
   told.T_world_camera = frame->T_world_camera;
@@ -230,8 +244,9 @@ Expected<void> FramesOnTheWay::take_in(const StreamedFrame& streamed) {
 Expected<void> FramesOnTheWay::tell() {
   if (std::exchange(untold_, 0) == 0) return {};
   const double now_s = time_.now_s();
+  free_s_ = std::max(free_s_, now_s);
   const int view = cursor_.views - 1;
-  if (during_ == "view" && planning_.snapshot) {
+  if (during_ != "trolley" && planning_.snapshot) {
     WorkMeter work;
     MapChange change = perception_.settle(planning_.region_world, work, stages_);
     free_s_ += work.seconds(options_.costs);

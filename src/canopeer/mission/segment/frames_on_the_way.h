@@ -51,8 +51,11 @@ class FramesOnTheWay {
   [[nodiscard]] Expected<void> go_along(double duration_s);
   /// It is over: what still waits is taken in, and told. Nothing: no frames were wanted.
   [[nodiscard]] Expected<std::optional<FrameCounts>> arrive();
+  /// In place of arrive(), after an exception: nobody works on frames any more.
+  void abandon();
 
  private:
+  void stop_thread();
   [[nodiscard]] bool counts() const;
   [[nodiscard]] double end_s() const { return options_.mission_time_s + cursor_.held_s; }
   [[nodiscard]] Expected<void> fetch();
@@ -77,13 +80,14 @@ class FramesOnTheWay {
   std::string during_;
   bool open_ = false;
   std::deque<StreamedFrame> waiting_;
+  double arrived_s_ = 0.0;          ///< when the motion ended; infinity: it has not
   double free_s_ = 0.0;             ///< when what was begun is done, by the compute table
   Pose T_last_ = Pose::Identity();  ///< of the camera, when a frame was taken in last
   int untold_ = 0;                  ///< frames the planner has not heard of
   FrameCounts counts_;
   StageTimer stages_;
   Expected<void> failure_;  ///< of the thread
-  std::jthread thread_;
+  std::jthread thread_;     // last: it ends first
 };
 
 }  // namespace canopeer

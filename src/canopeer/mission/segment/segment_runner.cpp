@@ -135,7 +135,9 @@ Expected<void> SegmentRunner::step() {
 
 Expected<void> SegmentRunner::end() {
   rest();
-  const double latest_s = tools_.cursor.segment_start_s + budget_s();
+  tools_.frames.plan_with({});
+  // One that begins behind its deadline has no time at all.
+  const double latest_s = tools_.cursor.segment_start_s + std::max(0.0, budget_s());
   return tools_.events.emit(SegmentEnded{index_, std::min(tools_.time.now_s(), latest_s)});
 }
 

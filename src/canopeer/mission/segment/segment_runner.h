@@ -52,6 +52,7 @@ class SegmentRunner {
   /// transition. The planner's background work stops: what it knows is about to be forgotten.
   [[nodiscard]] Expected<void> end();
   [[nodiscard]] Expected<MotionEnd> go_home(const Configuration& home);
+
  private:
   void rest() { tools_.time.background().rest(); }
   void stand_at(const TrolleyState& trolley);

@@ -10,12 +10,13 @@
 namespace canopeer {
 namespace {
 
-constexpr double kStands = 0.02;     // m: a trolley as near to a place is there
-constexpr double kAtPose = 0.05;     // rad, Σ|Δq|: so is an arm
-constexpr double kStepM = 0.1;       // between places where the camera could be parked
-constexpr double kLookM = 0.5;       // any: the camera looks in a direction
-constexpr int kMaxMotions = 2;       // tries to get to a pose
-constexpr double kLookEveryM = 0.3;  // along the row, where it has to stop to look
+constexpr double kStands = 0.02;       // m: a trolley as near to a place is there
+constexpr double kAtPose = 0.05;       // rad, Σ|Δq|: so is an arm
+constexpr double kStepM = 0.1;         // between places where the camera could be parked
+constexpr double kLookM = 0.5;         // any: the camera looks in a direction
+constexpr double kAisleMargin = 0.03;  // m: an arm that stands a little beside is within it still
+constexpr int kMaxMotions = 2;         // tries to get to a pose
+constexpr double kLookEveryM = 0.3;    // along the row, where it has to stop to look
 
 /// The middle, then on either side of it, ever farther away.
 std::vector<double> from_the_middle(double low, double high, double step) {
@@ -39,6 +40,7 @@ void DriveByPlanner::begin_segment(const PlanningScene& scene) {
   plan_passes();
   next_ = 0;
   motions_ = drives_ = 0;
+  lifted_ = false;
   goal_m_.reset();
   parked_.reset();
   ever_parked_ = false;
@@ -79,7 +81,12 @@ std::vector<double> DriveByPlanner::heights() const {
 }
 
 void DriveByPlanner::moved(const PlanningScene& scene) {
+  const TrolleyState before = scene_.segment.trolley;
   scene_ = scene;
+  // As near to the goal as it gets: it drove all the way, or no farther than before.
+  const double left = goal_m_ ? std::abs(*goal_m_ - scene.segment.trolley.travel_m) : 0.0;
+  const double driven = std::abs(scene.segment.trolley.travel_m - before.travel_m);
+  if (scene.looks_on_the_way || driven < kStands || left < kStands) goal_m_.reset();
   mover_->moved(scene);
 }
 
@@ -89,8 +96,10 @@ Decision DriveByPlanner::decide(const Configuration& q, WorkMeter& work) {
   while (next_ < passes_.size()) {
     const Pass& pass = passes_[next_];
     const TrolleyState& now = scene_.segment.trolley;
-    if (std::abs(now.lift_m - pass.lift_m) > kStands) {
-      return may_drive(q) ? drive({now.travel_m, pass.lift_m}, q) : stuck;
+    if (std::abs(now.lift_m - pass.lift_m) > kStands && !lifted_) {
+      if (!may_drive(q)) return stuck;
+      lifted_ = true;  // once: it stops where it stops
+      return drive({now.travel_m, pass.lift_m}, q);
     }
     const bool parked = parked_ && scene_.robot->endless().distance(q, *parked_) < kAtPose;
     if (!parked && motions_ < kMaxMotions) {
@@ -111,6 +120,7 @@ Decision DriveByPlanner::decide(const Configuration& q, WorkMeter& work) {
 void DriveByPlanner::next_pass() {
   ++next_;
   motions_ = drives_ = 0;
+  lifted_ = false;
   goal_m_.reset();
   parked_.reset();
 }
@@ -151,7 +161,7 @@ std::optional<Configuration> DriveByPlanner::parking(const Vec3& camera_base, co
   scene_.ik->solve_view(camera_base, camera_base + kLookM * pass.direction_base, q, solutions);
   const bool aisle_known = !scene_.robot->setup().known_free.isEmpty();
   for (const Configuration& solution : solutions) {
-    if (aisle_known && !keeps_to_aisle(*scene_.robot, solution)) continue;
+    if (aisle_known && !keeps_to_aisle(*scene_.robot, solution, kAisleMargin)) continue;
     work.add(Work::state_check);
     if (scene_.checker->state_free(solution)) return solution;
   }
@@ -207,14 +217,14 @@ Decision DriveByPlanner::drive(const TrolleyState& goal, const Configuration& q)
 
 Expected<std::string> DriveByPlanner::state() const {
   if (!mover_) return fail("no segment has begun");
-  return state_bytes(*mover_, region_base_, next_, motions_, drives_, goal_m_, parked_,
+  return state_bytes(*mover_, region_base_, next_, motions_, drives_, lifted_, goal_m_, parked_,
                      ever_parked_);
 }
 
 Expected<void> DriveByPlanner::restore(const PlanningScene& scene, std::string_view state) {
   begin_segment(scene);
-  auto read = read_state_bytes(state, *mover_, region_base_, next_, motions_, drives_, goal_m_,
-                               parked_, ever_parked_);
+  auto read = read_state_bytes(state, *mover_, region_base_, next_, motions_, drives_, lifted_,
+                               goal_m_, parked_, ever_parked_);
   if (read) plan_passes();
   return read;
 }

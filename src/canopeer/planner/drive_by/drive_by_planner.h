@@ -70,6 +70,7 @@ class DriveByPlanner : public Planner {
   int motions_ = 0;  // to the pose of this pass
   int drives_ = 0;   // along the row in this pass
   std::optional<Configuration> parked_;
+  bool lifted_ = false;           ///< it was told to, in this pass
   std::optional<double> goal_m_;  ///< where it drives to at present
   bool ever_parked_ = false;
 };
