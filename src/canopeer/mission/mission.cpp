@@ -216,7 +216,7 @@ Expected<void> Mission::State::do_step() {
 Expected<void> Mission::State::drive() {
   cursor.next = cursor.stopped ? Step::done : Step::begin;
   if (cursor.stopped) return {};
-  return arm->drive(options.segments[static_cast<std::size_t>(cursor.segment)].trolley);
+  return arm->drive({options.segments[static_cast<std::size_t>(cursor.segment)].trolley});
 }
 
 Expected<void> Mission::State::begin() {

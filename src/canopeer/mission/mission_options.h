@@ -33,7 +33,8 @@ struct SegmentPlan {
 struct OnTheWayOptions {
   double hz = 0.0;  ///< so many a second at most; 0: none
   /// A frame is left out when its image moved farther than this during the exposure, px, where it
-  /// moved fastest, at the median distance of what the last frame showed. 0: any blur.
+  /// moved fastest, at the median distance of what the last frame showed, but no nearer than
+  /// sharp_distance_m. 0: any blur.
   double max_blur_px = 3.0;
   double exposure_s = 0.005;  ///< what blur is reckoned with
   CameraIntrinsics camera;    ///< the same

@@ -77,19 +77,28 @@ class Trolley {
  public:
   virtual ~Trolley() = default;
   [[nodiscard]] virtual TrolleyState state() const = 0;
-  /// Drives there and waits; the arm must stand still where it keeps clear of everything.
+  /// Drives there and waits; the arm must be home.
   [[nodiscard]] virtual Expected<void> move_to(const TrolleyState& goal) = 0;
 
-  /// The same in two calls, for those who look around on the way: sets out, along the row no faster
-  /// than `max_travel_m_s` (0: as fast as it can), and returns how long it will take, s; 0: not
-  /// known. The error: it cannot drive that slowly, or the goal is out of reach.
-  [[nodiscard]] virtual Expected<double> start(const TrolleyState& goal, double max_travel_m_s) {
-    if (max_travel_m_s > 0.0) return fail("this trolley cannot be told how fast to drive");
-    goal_ = goal;
+  /// The same in two calls, for those who look around on the way: sets out and returns how long it
+  /// will take, s; 0: not known. The error: it cannot drive that slowly, or the goal is out of
+  /// reach.
+  struct Drive {
+    TrolleyState goal;
+    double max_travel_m_s = 0.0;  ///< along the row; 0: as fast as it can
+    bool arm_is_parked = false;   ///< not at home, to look at the row while it drives
+  };
+  [[nodiscard]] virtual Expected<double> start(const Drive& drive) {
+    if (drive.max_travel_m_s > 0.0) return fail("this trolley cannot be told how fast to drive");
+    if (drive.arm_is_parked) return fail("this trolley drives with the arm at home only");
+    goal_ = drive.goal;
     return 0.0;
   }
   /// Waits for the end of the drive started last.
   [[nodiscard]] virtual Expected<void> finish() { return move_to(goal_); }
+  /// state() is right while it drives, too. False: a person pushes it, say; frames from then have
+  /// no place.
+  [[nodiscard]] virtual bool knows_where_it_drives() const { return true; }
 
  private:
   TrolleyState goal_;

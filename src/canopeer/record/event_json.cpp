@@ -234,6 +234,7 @@ Json from(const MotionEvent& motion) {
   if (!motion.deviations.empty()) json["deviations"] = motion.deviations;
   if (motion.ended != MotionEvent().ended) json["ended"] = motion.ended;
   if (!motion.why.empty()) json["why"] = motion.why;
+  if (!motion.trolley.empty()) json["trolley"] = motion.trolley;
   if (const auto& frames = motion.frames) {
     json["frames"] = {{"fused", frames->fused},
                       {"late", frames->late},
@@ -257,6 +258,7 @@ MotionEvent to_motion(const Json& json) {
   motion.plant_contact = json.at("plant_contact").get<bool>();
   motion.ended = json.value("ended", motion.ended);
   motion.why = json.value("why", motion.why);
+  if (json.contains("trolley")) motion.trolley = to_numbers(json.at("trolley"));
   if (const auto frames = json.find("frames"); frames != json.end()) {
     motion.frames = FrameCounts{frames->at("fused").get<int>(), frames->at("late").get<int>(),
                                 frames->at("blurred").get<int>(), frames->at("alike").get<int>(),

@@ -117,6 +117,7 @@ struct MotionEvent {
   std::string ended = "arrived";  ///< or why not: "refused", "aborted", "cancelled", "preempted",
                                   ///< "stopped", "withheld"
   std::string why;                ///< in words
+  std::vector<double> trolley{};  ///< of a drive: travel and lift where it ended, m
   std::optional<FrameCounts> frames{};  ///< on the way; nothing: none were wanted
 };
 

@@ -75,7 +75,11 @@ struct RunFrames::State {
     return all;
   }
 
+  std::optional<TrolleyState> driven_to;  ///< since the run began
+
+  /// Where it stands; before the first drive: at the segment's stop.
   [[nodiscard]] TrolleyState trolley(int segment) const {
+    if (driven_to) return *driven_to;
     const auto index = static_cast<std::size_t>(std::max(segment, 0));
     return index < story.segments.size() ? story.segments[index].trolley : TrolleyState{};
   }
@@ -121,9 +125,12 @@ struct RunFrames::State {
   std::vector<Frame> frames(const MotionBegun& motion) const {
     return {motion_frame(motion, robot)};
   }
-  std::vector<Frame> frames(const MotionEnded& ended) const {
+  std::vector<Frame> frames(const MotionEnded& ended) {
     const MotionEvent& motion = ended.motion;
-    if (motion.kind == "trolley") return {trolley_frame(motion, trolley(motion.segment))};
+    if (motion.kind == "trolley") {
+      if (motion.trolley.size() == 2) driven_to = {motion.trolley[0], motion.trolley[1]};
+      return {trolley_frame(motion, trolley(motion.segment))};
+    }
     return {motion_end_frame(motion)};
   }
   std::vector<Frame> frames(const Fault& fault) const {

@@ -35,9 +35,8 @@ class PlacingTrolley : public Trolley {
   Expected<void> move_to(const TrolleyState& goal) override {
     return placed(trolley_.move_to(goal));
   }
-  Expected<double> start(const TrolleyState& goal, double max_travel_m_s) override {
-    return trolley_.start(goal, max_travel_m_s);
-  }
+  Expected<double> start(const Drive& drive) override { return trolley_.start(drive); }
+  bool knows_where_it_drives() const override { return trolley_.knows_where_it_drives(); }
   Expected<void> finish() override { return placed(trolley_.finish()); }
 
  private:
@@ -187,6 +186,7 @@ Expected<void> Ros2Site::open_ports() {
                             asked.min_range_m,
                             asked.max_range_m};
   around.alive = [this] { return arm_->fresh(); };
+  around.trolley_known_until = [this] { return sense_.known_until(); };
   auto camera = Ros2Camera::make(*node_, settings_.camera, around);
   if (!camera) return fail_in("camera", camera.error());
   camera_ = std::move(*camera);

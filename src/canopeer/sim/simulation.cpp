@@ -149,11 +149,12 @@ class Simulation::SimTrolley : public Trolley {
   TrolleyState state() const override { return state_.trolley; }
 
   Expected<void> move_to(const TrolleyState& goal) override {
-    if (auto started = start(goal, 0.0); !started) return tl::unexpected(started.error());
+    if (auto started = start({goal}); !started) return tl::unexpected(started.error());
     return finish();
   }
 
-  Expected<double> start(const TrolleyState& goal, double max_travel_m_s) override {
+  Expected<double> start(const Drive& drive) override {
+    const TrolleyState& goal = drive.goal;
     const Joint& travel = state_.robot.travel_axis();
     const Joint& lift = state_.robot.lift_axis();
     const auto outside = [](const Joint& axis, double value) {
@@ -165,7 +166,7 @@ class Simulation::SimTrolley : public Trolley {
     }
     goal_ = goal;
     const double duration_s = state_.change_track(
-        [&](RobotTrack& t) { return t.drive(goal, max_travel_m_s, state_.time.now_s()); });
+        [&](RobotTrack& t) { return t.drive(goal, drive.max_travel_m_s, state_.time.now_s()); });
     end_s_ = state_.time.now_s() + duration_s;
     return duration_s;
   }

@@ -137,24 +137,27 @@ Expected<MotionEnd> ArmMover::go_home(const Configuration& home, const Collision
   return MotionEnd::arrived;
 }
 
-Expected<void> ArmMover::drive(const TrolleyState& goal, double max_travel_m_s) {
+Expected<void> ArmMover::drive(const Trolley::Drive& drive) {
   const TrolleyState from = ports_.trolley->state();
-  if (goal.travel_m == from.travel_m && goal.lift_m == from.lift_m) return {};
+  if (drive.goal.travel_m == from.travel_m && drive.goal.lift_m == from.lift_m) return {};
   MotionEvent motion;
   motion.kind = "trolley";
   motion.segment = cursor_.segment;
   motion.start_s = time_.now_s();
-  if (auto ok = drive_looking(goal, max_travel_m_s, motion); !ok) return ok;
+  if (auto ok = drive_looking(drive, motion); !ok) return ok;
   motion.duration_s = time_.now_s() - motion.start_s;
+  const TrolleyState there = ports_.trolley->state();
+  motion.trolley = {there.travel_m, there.lift_m};
   return events_.emit(MotionEnded{std::move(motion)});
 }
 
-Expected<void> ArmMover::drive_looking(const TrolleyState& goal, double max_travel_m_s,
-                                       MotionEvent& motion) {
-  const auto duration = ports_.trolley->start(goal, max_travel_m_s);
+Expected<void> ArmMover::drive_looking(const Trolley::Drive& drive, MotionEvent& motion) {
+  const auto duration = ports_.trolley->start(drive);
   if (!duration) return fail_in("trolley", duration.error());
-  auto looked = frames_.set_out(motion.kind);
-  if (looked && frames_.wanted()) looked = frames_.go_along(*duration);
+  const bool looks = frames_.wanted() && ports_.trolley->knows_where_it_drives();
+  Expected<void> looked;
+  if (looks) looked = frames_.set_out(motion.kind);
+  if (looks && looked) looked = frames_.go_along(*duration);
   const auto driven = ports_.trolley->finish();
   const auto frames = frames_.arrive();
   if (!driven) return fail_in("trolley", driven.error());

@@ -33,15 +33,14 @@ class ArmMover {
   /// To `home`. The error says that no way was found.
   [[nodiscard]] Expected<MotionEnd> go_home(const Configuration& home,
                                             const CollisionChecker& checker);
-  /// The trolley, with the arm at rest; nothing happens when it is there. Along the row no faster
-  /// than `max_travel_m_s` (0: as fast as it can).
-  [[nodiscard]] Expected<void> drive(const TrolleyState& goal, double max_travel_m_s = 0.0);
+  /// The trolley, with the arm at rest; nothing happens when it is there. Without
+  /// Trolley::Drive::arm_is_parked the arm must be home.
+  [[nodiscard]] Expected<void> drive(const Trolley::Drive& drive);
 
  private:
   [[nodiscard]] JointPath without_needless_stops(const JointPath& stopping,
                                                  const CollisionChecker& checker);
-  [[nodiscard]] Expected<void> drive_looking(const TrolleyState& goal, double max_travel_m_s,
-                                             MotionEvent& motion);
+  [[nodiscard]] Expected<void> drive_looking(const Trolley::Drive& drive, MotionEvent& motion);
   [[nodiscard]] Expected<void> mind(const MotionOutcome& outcome);
 
   const RobotModel& robot_;

@@ -244,7 +244,7 @@ Expected<void> SegmentRunner::take(const ViewMotion& motion) {
 
 /// The trolley drives with the arm as it is, and the planner is told where it is now.
 Expected<void> SegmentRunner::drive(const RowDrive& drive) {
-  if (auto ok = tools_.arm.drive(drive.goal, drive.max_travel_m_s); !ok) return ok;
+  if (auto ok = tools_.arm.drive({drive.goal, drive.max_travel_m_s, true}); !ok) return ok;
   stand_at(tools_.arm.trolley());
   const PlanningScene scene = planning_scene();
   tools_.time.background().alone([&](Planner& planner) { planner.moved(scene); });

@@ -179,36 +179,52 @@ Expected<RgbdFrame> Ros2Camera::capture() {
 }
 
 Expected<void> Ros2Camera::stream(double hz) {
+  const auto info = feed_->intake().info();
   const std::lock_guard lock(mutex_);
   hz_ = hz;
+  due_ = 0;
   if (const auto newest = around_.joints.newest()) streamed_ = *newest;
+  if (!intrinsics_) {  // no frame yet: what the driver says will do for reckoning blur
+    intrinsics_.emplace();
+    if (info && info->k[0] > 0.0) {
+      *intrinsics_ = {static_cast<int>(info->width),
+                      static_cast<int>(info->height),
+                      info->k[0],
+                      info->k[4],
+                      info->k[2],
+                      info->k[5],
+                      around_.min_range_m,
+                      around_.max_range_m};
+    }
+  }
   return {};
 }
 
 Expected<std::vector<StreamedFrame>> Ros2Camera::arrived() {
   std::vector<StreamedFrame> frames;
-  double hz = 0.0;
-  Stamp since = 0;
-  {
-    const std::lock_guard lock(mutex_);
-    hz = hz_;
-    since = streamed_;
-  }
-  if (hz <= 0.0) return frames;
-  // A camera of 30 Hz has every other frame at 33.4 ms: what is asked for is no exact period.
-  const Stamp apart = nanoseconds(0.8 / hz);
-  for (const CameraFeed::Messages& messages : feed_->messages_since(since)) {
+  const std::lock_guard lock(mutex_);
+  if (hz_ <= 0.0) return frames;
+  const Stamp period = nanoseconds(1.0 / hz_);
+  for (const CameraFeed::Messages& messages : feed_->messages_since(streamed_)) {
     const Stamp stamp = feed_->stamp_of(*messages);
-    if (stamp < since + apart) continue;
-    since = stamp;
+    if (trolley_lags(stamp)) break;
+    streamed_ = stamp;
+    if (stamp + period / 10 < due_) continue;  // cameras are not that punctual
+    due_ = std::max(due_, stamp - period) + period;
     if (auto frame = streamed(messages)) frames.push_back(std::move(*frame));
   }
-  const std::lock_guard lock(mutex_);
-  streamed_ = std::max(streamed_, since);
   return frames;
 }
 
-/// Nothing: where the camera was is not known.
+/// Where the trolley was then will be known soon. One that says nothing for long stands.
+bool Ros2Camera::trolley_lags(Stamp stamp) const {
+  constexpr double kSoon_s = 0.5;
+  if (!around_.trolley_known_until) return false;
+  const auto known = around_.trolley_known_until();
+  return known && *known < stamp && stamp - *known < nanoseconds(kSoon_s);
+}
+
+/// Nothing: where the camera was is not known. The lock is held.
 std::optional<StreamedFrame> Ros2Camera::streamed(const CameraFeed::Messages& messages) {
   constexpr double kTwistSpan_s = 0.02;
   const Stamp stamp = feed_->stamp_of(*messages);
@@ -225,10 +241,7 @@ std::optional<StreamedFrame> Ros2Camera::streamed(const CameraFeed::Messages& me
   frame.twist = twist_between(*before, *pose, kTwistSpan_s);
   frame.q = arm_configuration(around_.robot, around_.joints, *q);
   frame.trolley = around_.trolley(stamp);
-  {
-    const std::lock_guard lock(mutex_);
-    frame.intrinsics = intrinsics_;
-  }
+  frame.intrinsics = *intrinsics_;
   frame.images = [this, messages]() -> Expected<RgbdFrame> {
     auto timed = feed_->decode(*messages);
     if (!timed) return tl::unexpected(timed.error());

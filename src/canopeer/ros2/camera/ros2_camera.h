@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "canopeer/base/expected.h"
@@ -21,6 +22,8 @@ struct CameraSurroundings {
   double max_range_m = 3.0;
   double tf_span_s = 10.0;                  ///< how far back tf is remembered
   std::function<Expected<void>()> alive{};  ///< see CameraFeed::Parts
+  /// Up to when it is known where the trolley was; empty, or nothing: nobody says it.
+  std::function<std::optional<Stamp>()> trolley_known_until{};
 };
 
 /// The camera on ROS 2 topics, as a mission sees it. Thread-safe.
@@ -55,6 +58,7 @@ class Ros2Camera : public Camera {
  private:
   explicit Ros2Camera(const CameraSurroundings& around) : tf_(around.tf_span_s), around_(around) {}
   [[nodiscard]] std::optional<StreamedFrame> streamed(const CameraFeed::Messages& messages);
+  [[nodiscard]] bool trolley_lags(Stamp stamp) const;
   [[nodiscard]] Expected<void> subscribe(Node& node, const Ros2CameraSettings& settings);
   [[nodiscard]] Expected<void> subscribe_part(Node& node, FramePart part, const std::string& topic,
                                               const Qos& qos);
@@ -67,9 +71,10 @@ class Ros2Camera : public Camera {
   std::unique_ptr<CameraFeed> feed_;
   mutable std::mutex mutex_;  // of what follows
   Latencies latencies_;
-  CameraIntrinsics intrinsics_;  // of the last frame
-  double hz_ = 0.0;              // of the stream
-  Stamp streamed_ = 0;           // the last one that was given out, or when the stream began
+  std::optional<CameraIntrinsics> intrinsics_;  // of the last frame
+  double hz_ = 0.0;                             // of the stream
+  Stamp streamed_ = 0;  // the last one that was looked at, or when the stream began
+  Stamp due_ = 0;       // when the next one is to come
   std::vector<Subscription> subscriptions_;  // last: they stop first
 };
 

@@ -36,7 +36,7 @@ Expected<void> Ros2Trolley::check_limits(const TrolleyState& goal) const {
 }
 
 /// Whoever drives past plants with the arm stretched out breaks something.
-Expected<void> Ros2Trolley::check_arm(ArmMay may) const {
+Expected<void> Ros2Trolley::check_arm(bool parked) const {
   if (parts_.arm_fresh) {
     if (auto ok = parts_.arm_fresh(); !ok) return ok;
   }
@@ -51,7 +51,7 @@ Expected<void> Ros2Trolley::check_arm(ArmMay may) const {
     nearest = name;
   }
   if (least <= kAtHome) return {};
-  if (may == ArmMay::look_at_the_row) {
+  if (parked) {
     if (keeps_to_aisle(parts_.robot, q)) return {};
     return fail("it must not drive: the arm is neither at home (" + figure(least, 2) +
                 " rad from " + nearest +
@@ -62,13 +62,8 @@ Expected<void> Ros2Trolley::check_arm(ArmMay may) const {
 }
 
 Expected<void> Ros2Trolley::move_to(const TrolleyState& goal) {
-  auto started = set_out(goal, 0.0, ArmMay::only_be_home);
-  if (!started) return tl::unexpected(started.error());
+  if (auto started = start({goal}); !started) return tl::unexpected(started.error());
   return finish();
-}
-
-Expected<double> Ros2Trolley::start(const TrolleyState& goal, double max_travel_m_s) {
-  return set_out(goal, max_travel_m_s, ArmMay::look_at_the_row);
 }
 
 Expected<void> Ros2Trolley::finish() {
@@ -79,7 +74,8 @@ Expected<void> Ros2Trolley::finish() {
 }
 
 /// 0 and not under way where it is there, or is not to move.
-Expected<double> Ros2Trolley::set_out(const TrolleyState& goal, double max_travel_m_s, ArmMay arm) {
+Expected<double> Ros2Trolley::start(const Drive& drive) {
+  const TrolleyState& goal = drive.goal;
   under_way_ = false;
   if (driver_->at(goal)) return 0.0;
   if (auto ok = check_limits(goal); !ok) return tl::unexpected(ok.error());
@@ -88,7 +84,7 @@ Expected<double> Ros2Trolley::set_out(const TrolleyState& goal, double max_trave
                        " in place of " + in_words(goal, parts_.robot));
     return 0.0;
   }
-  if (auto ok = check_arm(arm); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check_arm(drive.arm_is_parked); !ok) return tl::unexpected(ok.error());
   if (parts_.person.may_move && settings_.kind != Ros2TrolleySettings::Kind::manual &&
       !parts_.person.may_move("drive the trolley to " + in_words(goal, parts_.robot)) &&
       !parts_.person.stop()) {
@@ -96,8 +92,8 @@ Expected<double> Ros2Trolley::set_out(const TrolleyState& goal, double max_trave
   }
   if (parts_.person.stop()) return 0.0;  // the next question ends the mission
   // The answer may have taken minutes.
-  if (auto ok = check_arm(arm); !ok) return tl::unexpected(ok.error());
-  auto started = driver_->start(goal, max_travel_m_s);
+  if (auto ok = check_arm(drive.arm_is_parked); !ok) return tl::unexpected(ok.error());
+  auto started = driver_->start(goal, drive.max_travel_m_s);
   under_way_ = started.has_value();
   return started;
 }

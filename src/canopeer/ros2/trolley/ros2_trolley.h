@@ -25,9 +25,12 @@ class Ros2Trolley : public Trolley {
 
   [[nodiscard]] TrolleyState state() const override { return parts_.sense.now(); }
   [[nodiscard]] Expected<void> move_to(const TrolleyState& goal) override;
-  /// Besides home the arm may be where it keeps to the aisle (keeps_to_aisle()).
-  [[nodiscard]] Expected<double> start(const TrolleyState& goal, double max_travel_m_s) override;
+  /// A parked arm may be where it keeps to the aisle (keeps_to_aisle()).
+  [[nodiscard]] Expected<double> start(const Drive& drive) override;
   [[nodiscard]] Expected<void> finish() override;
+  [[nodiscard]] bool knows_where_it_drives() const override {
+    return parts_.sense.measures_travel();
+  }
   /// What it needs and does not find, for people.
   [[nodiscard]] std::vector<std::string> missing() const { return driver_->missing(); }
 
@@ -48,10 +51,7 @@ class Ros2Trolley : public Trolley {
         driver_(std::move(driver)),
         on_moved_(std::move(on_moved)) {}
   [[nodiscard]] Expected<void> check_limits(const TrolleyState& goal) const;
-  enum class ArmMay { only_be_home, look_at_the_row };
-  [[nodiscard]] Expected<void> check_arm(ArmMay may) const;
-  [[nodiscard]] Expected<double> set_out(const TrolleyState& goal, double max_travel_m_s,
-                                         ArmMay arm);
+  [[nodiscard]] Expected<void> check_arm(bool parked) const;
 
   TrolleyParts parts_;
   const Arm& arm_;

@@ -73,6 +73,16 @@ TrolleyState TrolleySense::at(Stamp stamp) const {
   return {axes_[0].at(stamp), axes_[1].at(stamp)};
 }
 
+std::optional<Stamp> TrolleySense::known_until() const {
+  std::optional<Stamp> known;
+  for (const Axis& axis : axes_) {
+    if (axis.history == nullptr) continue;
+    const auto newest = axis.history->newest();
+    if (newest && (!known || *newest < *known)) known = newest;
+  }
+  return known;
+}
+
 void TrolleySense::believe(const TrolleyState& state) {
   axes_[0].believed = state.travel_m;
   axes_[1].believed = state.lift_m;

@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ class TrolleySense {
   [[nodiscard]] TrolleyState now() const;
   /// Where it stood then; outside what is known: the nearest that is.
   [[nodiscard]] TrolleyState at(Stamp stamp) const;
+  /// The newest time of which all axes that anybody speaks of are known; nothing: nobody does.
+  [[nodiscard]] std::optional<Stamp> known_until() const;
   /// Counts for axes that nobody says anything of.
   void believe(const TrolleyState& state);
   [[nodiscard]] bool measures_travel() const { return axes_[0].history != nullptr; }
