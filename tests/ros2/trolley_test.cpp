@@ -175,18 +175,18 @@ TEST_F(TrajectoryTrolley, DrivesNoFasterThanItIsToldWhileTheArmLooksAtTheRow) {
   arm_.q[5] += 0.5;  // the camera turned about its axis: away from home, still in the aisle
   ASSERT_TRUE(keeps_to_aisle(test_robot(), arm_.q));
   EXPECT_FALSE(trolley_->move_to({0.55, 0.5}));
-  const auto slow = trolley_->start({{0.55, 0.5}, 0.1, true});
+  const auto slow = trolley_->set_out({{0.55, 0.5}, 0.1, true});
   ASSERT_TRUE(slow) << slow.error().message;
   EXPECT_GT(*slow, 0.5);  // 5 cm at 10 cm/s at most
   EXPECT_EQ(moved_, 0);
-  const auto arrived = trolley_->finish();
+  const auto arrived = trolley_->arrive();
   EXPECT_TRUE(arrived) << arrived.error().message;
   EXPECT_EQ(moved_, 1);
   EXPECT_NEAR(trolley_->state().travel_m, 0.55, 0.005);
-  const auto there = trolley_->start({{0.55, 0.5}, 0.1, true});
+  const auto there = trolley_->set_out({{0.55, 0.5}, 0.1, true});
   ASSERT_TRUE(there);
   EXPECT_EQ(*there, 0.0);
-  EXPECT_TRUE(trolley_->finish());
+  EXPECT_TRUE(trolley_->arrive());
   EXPECT_EQ(controller_->goals(), 1);
 }
 
@@ -194,7 +194,7 @@ TEST_F(TrajectoryTrolley, DoesNotDriveWithTheArmAmongThePlants) {
   begin();
   arm_.q = Configuration::Zero(arm_.q.size());  // stretched out along the row
   arm_.q[0] = std::numbers::pi / 2.0;           // and turned across it
-  const auto refused = trolley_->start({{0.6, 0.5}, 0.1, true});
+  const auto refused = trolley_->set_out({{0.6, 0.5}, 0.1, true});
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("nor within the aisle"), std::string::npos);
   EXPECT_EQ(controller_->goals(), 0);
@@ -288,11 +288,11 @@ TEST_F(TopicsTrolley, IsToldWhereAndWaitedFor) {
 TEST_F(TopicsTrolley, CannotBeToldHowFast) {
   begin();
   lift_.publish({0.2});
-  const auto slow = trolley_->start({{1.2, 0.2}, 0.1, true});
+  const auto slow = trolley_->set_out({{1.2, 0.2}, 0.1, true});
   ASSERT_FALSE(slow);
   EXPECT_NE(slow.error().message.find("cannot be told how fast"), std::string::npos);
-  EXPECT_TRUE(trolley_->start({{1.2, 0.2}, 0.0, true}));
-  const auto arrived = trolley_->finish();
+  EXPECT_TRUE(trolley_->set_out({{1.2, 0.2}, 0.0, true}));
+  const auto arrived = trolley_->arrive();
   EXPECT_TRUE(arrived) << arrived.error().message;
   EXPECT_NEAR(trolley_->state().travel_m, 1.2, 0.005);
 }

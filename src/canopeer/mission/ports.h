@@ -88,14 +88,14 @@ class Trolley {
     double max_travel_m_s = 0.0;  ///< along the row; 0: as fast as it can
     bool arm_is_parked = false;   ///< not at home, to look at the row while it drives
   };
-  [[nodiscard]] virtual Expected<double> start(const Drive& drive) {
+  [[nodiscard]] virtual Expected<double> set_out(const Drive& drive) {
     if (drive.max_travel_m_s > 0.0) return fail("this trolley cannot be told how fast to drive");
     if (drive.arm_is_parked) return fail("this trolley drives with the arm at home only");
     goal_ = drive.goal;
     return 0.0;
   }
   /// Waits for the end of the drive started last.
-  [[nodiscard]] virtual Expected<void> finish() { return move_to(goal_); }
+  [[nodiscard]] virtual Expected<void> arrive() { return move_to(goal_); }
   /// state() is right while it drives, too. False: a person pushes it, say; frames from then have
   /// no place.
   [[nodiscard]] virtual bool knows_where_it_drives() const { return true; }

@@ -35,9 +35,9 @@ class PlacingTrolley : public Trolley {
   Expected<void> move_to(const TrolleyState& goal) override {
     return placed(trolley_.move_to(goal));
   }
-  Expected<double> start(const Drive& drive) override { return trolley_.start(drive); }
+  Expected<double> set_out(const Drive& drive) override { return trolley_.set_out(drive); }
   bool knows_where_it_drives() const override { return trolley_.knows_where_it_drives(); }
-  Expected<void> finish() override { return placed(trolley_.finish()); }
+  Expected<void> arrive() override { return placed(trolley_.arrive()); }
 
  private:
   Expected<void> placed(const Expected<void>& moved) {

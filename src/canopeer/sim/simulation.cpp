@@ -149,11 +149,11 @@ class Simulation::SimTrolley : public Trolley {
   TrolleyState state() const override { return state_.trolley; }
 
   Expected<void> move_to(const TrolleyState& goal) override {
-    if (auto started = start({goal}); !started) return tl::unexpected(started.error());
-    return finish();
+    if (auto started = set_out({goal}); !started) return tl::unexpected(started.error());
+    return arrive();
   }
 
-  Expected<double> start(const Drive& drive) override {
+  Expected<double> set_out(const Drive& drive) override {
     const TrolleyState& goal = drive.goal;
     const Joint& travel = state_.robot.travel_axis();
     const Joint& lift = state_.robot.lift_axis();
@@ -171,7 +171,7 @@ class Simulation::SimTrolley : public Trolley {
     return duration_s;
   }
 
-  Expected<void> finish() override {
+  Expected<void> arrive() override {
     state_.time.pass_until(end_s_);
     state_.trolley = goal_;
     state_.stand();

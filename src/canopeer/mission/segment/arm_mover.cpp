@@ -152,13 +152,13 @@ Expected<void> ArmMover::drive(const Trolley::Drive& drive) {
 }
 
 Expected<void> ArmMover::drive_looking(const Trolley::Drive& drive, MotionEvent& motion) {
-  const auto duration = ports_.trolley->start(drive);
+  const auto duration = ports_.trolley->set_out(drive);
   if (!duration) return fail_in("trolley", duration.error());
   const bool looks = frames_.wanted() && ports_.trolley->knows_where_it_drives();
   Expected<void> looked;
   if (looks) looked = frames_.set_out(motion.kind);
   if (looks && looked) looked = frames_.go_along(*duration);
-  const auto driven = ports_.trolley->finish();
+  const auto driven = ports_.trolley->arrive();
   const auto frames = frames_.arrive();
   if (!driven) return fail_in("trolley", driven.error());
   if (!looked) return looked;

@@ -62,11 +62,11 @@ Expected<void> Ros2Trolley::check_arm(bool parked) const {
 }
 
 Expected<void> Ros2Trolley::move_to(const TrolleyState& goal) {
-  if (auto started = start({goal}); !started) return tl::unexpected(started.error());
-  return finish();
+  if (auto started = set_out({goal}); !started) return tl::unexpected(started.error());
+  return arrive();
 }
 
-Expected<void> Ros2Trolley::finish() {
+Expected<void> Ros2Trolley::arrive() {
   if (!std::exchange(under_way_, false)) return {};
   auto driven = driver_->finish();
   if (on_moved_) on_moved_();
@@ -74,7 +74,7 @@ Expected<void> Ros2Trolley::finish() {
 }
 
 /// 0 and not under way where it is there, or is not to move.
-Expected<double> Ros2Trolley::start(const Drive& drive) {
+Expected<double> Ros2Trolley::set_out(const Drive& drive) {
   const TrolleyState& goal = drive.goal;
   under_way_ = false;
   if (driver_->at(goal)) return 0.0;

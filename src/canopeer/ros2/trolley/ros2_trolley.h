@@ -26,8 +26,8 @@ class Ros2Trolley : public Trolley {
   [[nodiscard]] TrolleyState state() const override { return parts_.sense.now(); }
   [[nodiscard]] Expected<void> move_to(const TrolleyState& goal) override;
   /// A parked arm may be where it keeps to the aisle (keeps_to_aisle()).
-  [[nodiscard]] Expected<double> start(const Drive& drive) override;
-  [[nodiscard]] Expected<void> finish() override;
+  [[nodiscard]] Expected<double> set_out(const Drive& drive) override;
+  [[nodiscard]] Expected<void> arrive() override;
   [[nodiscard]] bool knows_where_it_drives() const override {
     return parts_.sense.measures_travel();
   }
