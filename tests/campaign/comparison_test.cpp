@@ -101,7 +101,9 @@ RunFiles made_up_files(double mission_time_s) {
   files.record.views[0].t_s = 2.0;
   files.record.views[1].t_s = 16.0;
   files.record.views[1].segment = 1;
+  files.record.views[1].view = 1;
   files.record.frames.resize(1);
+  files.record.frames[0].view = 1;
   files.record.frames[0].t_s = 12.0;
   files.record.frames[0].fruits = {{0, files.truth[0].centre, 100.0, 1.0}};
   files.record.views[1].fruits = files.record.frames[0].fruits;

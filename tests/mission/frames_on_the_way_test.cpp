@@ -168,7 +168,7 @@ TEST_F(OnTheWay, KeptSharpTheArmMovesNoFasterThanTheLimit) {
   const ImageMotionLimit limit = *options_.on_the_way.limit();
   const RobotModel& robot = test::test_robot();
   for (const MotionEvent& motion : record_.motions) {
-    if (motion.kind == "trolley") continue;
+    if (motion.kind != "view") continue;
     JointPath path = path_of(motion);
     path.sharp = limit;
     const PathMotion timed(path, robot);

@@ -49,6 +49,7 @@ class DriveByTest : public ::testing::Test {
         transformed(world_.robot.sampling_region(1), scene.segment.T_world_base);
     scene.segment.row = row_;
     scene.sharp = sharp_;
+    scene.looks_on_the_way = looks_on_the_way_;
     return scene;
   }
   void place(const TrolleyState& trolley) {
@@ -93,6 +94,7 @@ class DriveByTest : public ::testing::Test {
   test::PlanningFixture world_;
   std::vector<TrolleyState> row_ = {{1, 0}, {2, 0}, {2.5, 0}, {1, 0.5}, {2, 0.5}, {2.5, 0.5}};
   std::optional<ImageMotionLimit> sharp_;
+  bool looks_on_the_way_ = true;
   std::unique_ptr<CollisionChecker> checker_;
   DriveByOptions options_;
   std::unique_ptr<DriveByPlanner> planner_;
@@ -101,6 +103,24 @@ class DriveByTest : public ::testing::Test {
   TrolleyState trolley_;
   bool take_over_ = false;
 };
+
+TEST_F(DriveByTest, StopsToLookWhereNoFramesComeOnTheWay) {
+  looks_on_the_way_ = false;
+  begin(options(1, 0.0, 0.0));
+  int drives = 0;
+  double least = 1e9;
+  double most = -1e9;
+  for (const Step& step : until_it_rests()) {
+    if (step.decision.action != Decision::Action::drive) continue;
+    const double goal = step.decision.drive.goal.travel_m;
+    EXPECT_LE(std::abs(goal - step.trolley.travel_m), 0.3 + 1e-9);
+    least = std::min(least, goal);
+    most = std::max(most, goal);
+    ++drives;
+  }
+  EXPECT_GT(drives, (most - least) / 0.3);
+  EXPECT_GT(most - least, 0.5);  // from end to end of the row
+}
 
 TEST_F(DriveByTest, DrivesToAndFroWithEachPoseAtEachLift) {
   begin(options(2, 0.0, 0.25));

@@ -18,12 +18,14 @@ RunRecord some_record() {
   RunRecord record;
   for (const auto& [t_s, count] : {std::pair(1.0, 1), std::pair(4.0, 3)}) {
     ViewEvent view;
+    view.view = static_cast<int>(record.views.size());
     view.t_s = t_s;
     view.fruits = fruits(count);
     record.views.push_back(view);
   }
   for (const auto& [t_s, count] : {std::pair(2.0, 2), std::pair(3.0, 2), std::pair(5.0, 4)}) {
     FrameEvent frame;
+    frame.view = t_s < 4.0 ? 1 : 2;  // the first view was before all, the second before the last
     frame.t_s = t_s;
     frame.fruits = fruits(count);
     record.frames.push_back(frame);

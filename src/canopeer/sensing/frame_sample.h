@@ -37,6 +37,7 @@ class FrameSample {
   /// It has come to rest where the next frame is taken, if that is taken at rest.
   void rests_from(double time_s) { rests_from_s_ = time_s; }
 
+  /// One of the frames, made small.
   struct Kept {
     double time_s = 0.0;
     CoarseDepth image;

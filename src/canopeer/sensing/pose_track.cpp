@@ -22,11 +22,22 @@ Pose foretold(const TrackPoint& from, double time_s) {
   return from.T_world_camera * moved;
 }
 
-Pose blended(const Pose& a, const Pose& b, double share) {
-  const Eigen::AngleAxisd turn(Eigen::Matrix3d(a.linear().transpose() * b.linear()));
+Vec3 velocity_world(const TrackPoint& point) {
+  return point.T_world_camera.linear() * point.twist.linear;
+}
+
+/// Between two points: a cubic through places and velocities (Hermite); turned as both foretell.
+Pose between(const TrackPoint& a, const TrackPoint& b, double time_s) {
+  const double span_s = b.time_s - a.time_s;
+  const double s = (time_s - a.time_s) / span_s;
+  const double smooth = s * s * (3.0 - 2.0 * s);
+  const Eigen::Matrix3d from = foretold(a, time_s).linear();
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(from.transpose() * foretold(b, time_s).linear()));
   Pose pose = Pose::Identity();
-  pose.linear() = a.linear() * turned_by(share * turn.angle() * turn.axis());
-  pose.translation() = (1.0 - share) * a.translation() + share * b.translation();
+  pose.linear() = from * turned_by(smooth * turn.angle() * turn.axis());
+  pose.translation() =
+      (1.0 - smooth) * a.T_world_camera.translation() + smooth * b.T_world_camera.translation() +
+      s * (1.0 - s) * span_s * ((1.0 - s) * velocity_world(a) - s * velocity_world(b));
   return pose;
 }
 
@@ -46,9 +57,7 @@ std::optional<Pose> PoseTrack::at(double time_s) const {
   const bool has_after = after != points_.end();
   const bool has_before = after != points_.begin();
   if (has_before && has_after && after->time_s - (after - 1)->time_s <= 2.0 * kReach_s) {
-    const double s = (time_s - (after - 1)->time_s) / (after->time_s - (after - 1)->time_s);
-    return blended(foretold(*(after - 1), time_s), foretold(*after, time_s),
-                   s * s * (3.0 - 2.0 * s));
+    return between(*(after - 1), *after, time_s);
   }
   if (has_before && near(after - 1)) return foretold(*(after - 1), time_s);
   if (has_after && near(after)) return foretold(*after, time_s);

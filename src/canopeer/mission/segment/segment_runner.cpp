@@ -78,8 +78,12 @@ Expected<void> SegmentRunner::resume(std::string_view planner_state) {
   auto restored = tools_.time.background().alone(
       [&](Planner& planner) { return planner.restore(scene, planner_state); });
   if (!restored) return fail_in("planner", restored.error());
-  // Behind its last decision a segment has nothing to grow for.
-  if (tools_.cursor.next == MissionCursor::Step::decide) tools_.time.background().go();
+  // Behind its last decision a segment has nothing to plan for.
+  if (tools_.cursor.next == MissionCursor::Step::decide) {
+    tools_.time.background().go();
+  } else {
+    tools_.frames.plan_with({});
+  }
   return {};
 }
 
