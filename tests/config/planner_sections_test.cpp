@@ -44,7 +44,8 @@ TEST(PlannerSections, OfTheScansAreReadEachForItself) {
 TEST(PlannerSections, ErrorsSayWhatWasExpected) {
   const auto poses = mission_of("drive_by: {poses: 4}\n");
   ASSERT_FALSE(poses);
-  EXPECT_NE(poses.error().message.find("poses: expected a whole number between 1 and 3"), std::string::npos)
+  EXPECT_NE(poses.error().message.find("poses: expected a whole number between 1 and 3"),
+            std::string::npos)
       << poses.error().message;
   const auto stretch = mission_of("sweep: {stretch_m: 0}\n");
   ASSERT_FALSE(stretch);

@@ -59,16 +59,16 @@ TEST(PlannerRegistry, KnowsWhoDrivesAlongTheRow) {
   PlannerRegistry planners = PlannerRegistry::built_in();
   EXPECT_TRUE(planners.add(
       "tractor", "", [](const PlannerOptions&) { return std::make_unique<Sleeper>(""); },
-      SegmentOrder::along_row));
+      PlannerManners{true, false}));
   EXPECT_FALSE(planners.add(
       "vmp", "", [](const PlannerOptions&) { return std::make_unique<Sleeper>(""); },
-      SegmentOrder::along_row));
+      PlannerManners{true, false}));
   for (const auto& name : planners.names()) {
     const bool drives = name == "drive_by" || name == "tractor";
-    EXPECT_EQ(planners.order_of(name), drives ? SegmentOrder::along_row : SegmentOrder::by_stop)
-        << name;
+    EXPECT_EQ(planners.manners(name).drives_along_row, drives) << name;
+    EXPECT_EQ(planners.manners(name).keeps_sharp, name == "drive_by" || name == "sweep") << name;
   }
-  EXPECT_EQ(planners.order_of("vpm"), SegmentOrder::by_stop);
+  EXPECT_FALSE(planners.manners("vpm").drives_along_row);
 }
 
 TEST(PlannerRegistry, AFactorysErrorIsPassedOn) {

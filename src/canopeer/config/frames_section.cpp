@@ -5,7 +5,7 @@
 namespace canopeer {
 
 void read_frames(YamlMap& file, const CameraIntrinsics& camera, double exposure_s,
-                 MissionOptions& mission) {
+                 const PlannerManners& planner, MissionOptions& mission) {
   YamlMap frames = file.map("frames");
   OnTheWayOptions& o = mission.on_the_way;
   o.camera = camera;
@@ -13,9 +13,7 @@ void read_frames(YamlMap& file, const CameraIntrinsics& camera, double exposure_
   o.max_blur_px = frames.number("max_blur_px", o.max_blur_px, {0.0, 1000.0});
   const double exposure_ms = 1e3 * (exposure_s > 0.0 ? exposure_s : o.exposure_s);
   o.exposure_s = frames.number("exposure_ms", exposure_ms, {0.01, 1000.0}) / 1e3;
-  // These two are nothing without it.
-  const bool sharp = mission.planner == "drive_by" || mission.planner == "sweep";
-  o.keep_sharp = frames.boolean("keep_sharp", sharp && o.max_blur_px > 0.0);
+  o.keep_sharp = frames.boolean("keep_sharp", planner.keeps_sharp && o.max_blur_px > 0.0);
   if (o.keep_sharp && o.max_blur_px <= 0.0) {
     frames.complain("keep_sharp", "expected a max_blur_px above 0 with it");
   }

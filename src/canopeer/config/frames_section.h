@@ -6,8 +6,8 @@
 namespace canopeer {
 
 /// The keys `clock` and `frames` of a mission file. `exposure_s`: of the simulated camera, 0: it
-/// knows no blur. Call it when `mission.planner` is known.
+/// knows no blur. `planner`: of the one that the mission names.
 void read_frames(YamlMap& file, const CameraIntrinsics& camera, double exposure_s,
-                 MissionOptions& mission);
+                 const PlannerManners& planner, MissionOptions& mission);
 
 }  // namespace canopeer

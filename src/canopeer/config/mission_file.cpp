@@ -224,7 +224,8 @@ Expected<MissionFile> load_mission(const fs::path& path, const Overrides& overri
   }
   read_camera(file->map("camera"), result);
   read_noise(*file, result.simulation.sensor);
-  read_frames(*file, result.simulation.camera, result.simulation.sensor.motion.exposure_s, mission);
+  read_frames(*file, result.simulation.camera, result.simulation.sensor.motion.exposure_s,
+              registries.planners.manners(mission.planner), mission);
   read_map(file->map("map"), mission);
   read_view_sampling(file->map("view_sampling"), vmp.builder);
   read_graph(file->map("graph"), vmp.builder);

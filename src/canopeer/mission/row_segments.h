@@ -6,7 +6,7 @@
 
 namespace canopeer {
 
-/// The same work for planners that drive along the row themselves (SegmentOrder::along_row): all
+/// The same work for planners that drive along the row themselves (PlannerManners): all
 /// segments of one side as one, in the order in which the sides come first, called "row, side 1".
 /// Its `row` are their trolley states, each once, by lift height and along the row; it begins at
 /// the first of them. Its budget is the sum of theirs; `segment_time_s` is that of segments

@@ -24,20 +24,20 @@ PlannerRegistry PlannerRegistry::built_in() {
           [](const PlannerOptions& o) { return std::make_unique<SweepPlanner>(o.sweep); });
   all.put("drive_by", "the arm parked, the trolley drives along the row",
           [](const PlannerOptions& o) { return std::make_unique<DriveByPlanner>(o.drive_by); });
-  all.along_row_.insert("drive_by");
+  all.manners_ = {{"sweep", {false, true}}, {"drive_by", {true, true}}};
   return all;
 }
 
 Expected<void> PlannerRegistry::add(std::string name, std::string one_line, Factory factory,
-                                    SegmentOrder order) {
+                                    const PlannerManners& manners) {
   auto added = NamedFactories::add(name, std::move(one_line), std::move(factory));
-  if (added && order == SegmentOrder::along_row) along_row_.insert(std::move(name));
+  if (added) manners_[std::move(name)] = manners;
   return added;
 }
 
-SegmentOrder PlannerRegistry::order_of(std::string_view name) const {
-  return along_row_.find(name) == along_row_.end() ? SegmentOrder::by_stop
-                                                   : SegmentOrder::along_row;
+PlannerManners PlannerRegistry::manners(std::string_view name) const {
+  const auto found = manners_.find(name);
+  return found == manners_.end() ? PlannerManners() : found->second;
 }
 
 Expected<std::unique_ptr<Planner>> PlannerRegistry::make(std::string_view name,

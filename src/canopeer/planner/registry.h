@@ -3,7 +3,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <string_view>
 
@@ -19,10 +18,13 @@
 
 namespace canopeer {
 
-/// In which order the mission's stops, lift heights and sides are worked at.
-enum class SegmentOrder {
-  by_stop,   ///< each is a segment of its own; the trolley stands still in it
-  along_row  ///< all of one side are one segment, in which the planner drives along the row
+/// What a mission has to know of a planner before it is made.
+struct PlannerManners {
+  /// All stops and lift heights of one side are one segment, in which the planner drives along the
+  /// row itself; else each is a segment of its own, and the trolley stands still in it.
+  bool drives_along_row = false;
+  /// Frames on the way are all it lives by: by default it moves no faster than they stay sharp.
+  bool keeps_sharp = false;
 };
 
 /// The options of every planner; a run uses those of the one it names.
@@ -51,11 +53,11 @@ class PlannerRegistry
   /// Those of this library.
   [[nodiscard]] static PlannerRegistry built_in();
 
-  /// As NamedFactories::add; `order`: of a planner that drives along the row itself.
+  /// As NamedFactories::add, of a planner with manners of its own.
   [[nodiscard]] Expected<void> add(std::string name, std::string one_line, Factory factory,
-                                   SegmentOrder order = SegmentOrder::by_stop);
-  /// How the planner called `name` wants its segments; by_stop where there is none of that name.
-  [[nodiscard]] SegmentOrder order_of(std::string_view name) const;
+                                   const PlannerManners& manners = {});
+  /// Those of the planner called `name`; the usual ones where there is none of that name.
+  [[nodiscard]] PlannerManners manners(std::string_view name) const;
 
   /// The planner called `name`; the error lists the names there are, or is the factory's.
   [[nodiscard]] Expected<std::unique_ptr<Planner>> make(std::string_view name,
@@ -64,7 +66,7 @@ class PlannerRegistry
  private:
   PlannerRegistry() : NamedFactories("planner") {}
 
-  std::set<std::string, std::less<>> along_row_;
+  std::map<std::string, PlannerManners, std::less<>> manners_;
 };
 
 }  // namespace canopeer

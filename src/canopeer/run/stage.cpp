@@ -114,7 +114,7 @@ Expected<std::unique_ptr<Stage>> Stage::make(MissionFile file, const StageReques
   if (mission.clock == MissionClock::whole) {
     mission.mission_time_s = whole_mission_time_s(*robot, mission);
   }
-  if (registries.planners.order_of(mission.planner) == SegmentOrder::along_row) {
+  if (registries.planners.manners(mission.planner).drives_along_row) {
     mission.segments = segments_along_row(mission.segments, mission.segment_time_s);
   }
   std::unique_ptr<Stage> stage(

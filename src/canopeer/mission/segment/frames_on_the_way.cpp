@@ -125,9 +125,9 @@ void FramesOnTheWay::work_until_told(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
       failure_ = fetch();
       if (failure_ && !waiting_.empty()) {
-        const StreamedFrame frame = std::move(waiting_.front());
+        const Waiting next = std::move(waiting_.front());
         waiting_.pop_front();
-        failure_ = take_in(frame);
+        failure_ = take_in(next);
       } else {
         std::this_thread::sleep_for(kNextLook);
       }
@@ -158,16 +158,17 @@ Expected<void> FramesOnTheWay::fetch() {
 void FramesOnTheWay::admit(StreamedFrame frame) {
   if (frame.time_s > arrived_s_) return;  // from rest: the next view is from there
   if (options_.mission_time_s > 0.0 && frame.time_s > end_s()) return;
-  double blur_px = 0.0;
+  const double blur = blur_px(frame);
+  const double limit_px = options_.on_the_way.max_blur_px;
   if (alike(frame)) {
     ++counts_.alike;
-  } else if (too_blurred(frame, &blur_px)) {
+  } else if (limit_px > 0.0 && blur > limit_px * kJustSharp) {
     ++counts_.blurred;
   } else if (static_cast<int>(waiting_.size()) >= options_.on_the_way.queue) {
     ++counts_.late;
   } else {
     T_last_ = frame.T_world_camera;
-    waiting_.push_back(std::move(frame));
+    waiting_.push_back({std::move(frame), blur});
   }
 }
 
@@ -177,28 +178,27 @@ bool FramesOnTheWay::alike(const StreamedFrame& frame) const {
          Eigen::AngleAxisd(Eigen::Matrix3d(T.linear())).angle() < options_.on_the_way.new_after_rad;
 }
 
-bool FramesOnTheWay::too_blurred(const StreamedFrame& frame, double* blur_px) const {
-  const OnTheWayOptions& o = options_.on_the_way;
+double FramesOnTheWay::blur_px(const StreamedFrame& frame) const {
   // Nearer than the distance looked at is a leaf in the way: no reason to look at nothing.
-  const double distance_m = std::max(cursor_.seen_distance_m, o.sharp_distance_m);
-  *blur_px = o.exposure_s * image_speed(frame.twist, frame.intrinsics, distance_m);
-  return o.max_blur_px > 0.0 && *blur_px > o.max_blur_px * kJustSharp;
+  const double distance_m = std::max(cursor_.seen_distance_m, options_.on_the_way.sharp_distance_m);
+  return options_.on_the_way.exposure_s * image_speed(frame.twist, frame.intrinsics, distance_m);
 }
 
 /// In simulated time: frames whose turn comes before `until_s`.
 Expected<void> FramesOnTheWay::work_off(double until_s) {
   while (!waiting_.empty()) {
-    const double begin_s = std::max(free_s_, waiting_.front().arrived_s);
+    const double begin_s = std::max(free_s_, waiting_.front().frame.arrived_s);
     if (time_.simulated() && begin_s >= until_s) return {};
-    const StreamedFrame frame = std::move(waiting_.front());
+    const Waiting next = std::move(waiting_.front());
     waiting_.pop_front();
     free_s_ = begin_s;
-    if (auto ok = take_in(frame); !ok) return ok;
+    if (auto ok = take_in(next); !ok) return ok;
   }
   return {};
 }
 
-Expected<void> FramesOnTheWay::take_in(const StreamedFrame& streamed) {
+Expected<void> FramesOnTheWay::take_in(const Waiting& next) {
+  const StreamedFrame& streamed = next.frame;
   auto frame = stages_.time("camera", [&] { return streamed.images(); });
   if (!frame) {  // the camera counts it too; at the next view its error would end the run
     ++counts_.unread;
@@ -224,7 +224,7 @@ Expected<void> FramesOnTheWay::take_in(const StreamedFrame& streamed) {
   told.during = during_;
   told.t_s = frame->time_s;
   told.T_world_camera = frame->T_world_camera;
-  static_cast<void>(too_blurred(streamed, &told.blur_px));
+  told.blur_px = next.blur_px;
   told.realised_gain = seen->fused.newly_known;
   told.fused_points = seen->fused.fused_points;
   if (const auto& pixels = seen->pixels) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -55,14 +56,19 @@ class FramesOnTheWay {
   void abandon();
 
  private:
+  /// A frame that counts, and how blurred it was judged to be.
+  struct Waiting {
+    StreamedFrame frame;
+    double blur_px = 0.0;
+  };
   void stop_thread();
   [[nodiscard]] bool counts() const;
   [[nodiscard]] double end_s() const { return options_.mission_time_s + cursor_.held_s; }
   [[nodiscard]] Expected<void> fetch();
   void admit(StreamedFrame frame);
   [[nodiscard]] Expected<void> work_off(double until_s);
-  [[nodiscard]] Expected<void> take_in(const StreamedFrame& frame);
-  [[nodiscard]] bool too_blurred(const StreamedFrame& frame, double* blur_px) const;
+  [[nodiscard]] Expected<void> take_in(const Waiting& next);
+  [[nodiscard]] double blur_px(const StreamedFrame& frame) const;
   [[nodiscard]] bool alike(const StreamedFrame& frame) const;
   [[nodiscard]] Expected<void> tell();
   void work_until_told(const std::stop_token& stop);
@@ -79,11 +85,11 @@ class FramesOnTheWay {
   // Of the motion under way:
   std::string during_;
   bool open_ = false;
-  std::deque<StreamedFrame> waiting_;
-  double arrived_s_ = 0.0;          ///< when the motion ended; infinity: it has not
-  double free_s_ = 0.0;             ///< when what was begun is done, by the compute table
-  Pose T_last_ = Pose::Identity();  ///< of the camera, when a frame was taken in last
-  int untold_ = 0;                  ///< frames the planner has not heard of
+  std::deque<Waiting> waiting_;
+  std::atomic<double> arrived_s_{0.0};  ///< when the motion ended; infinity: it has not
+  double free_s_ = 0.0;                 ///< when what was begun is done, by the compute table
+  Pose T_last_ = Pose::Identity();      ///< of the camera, when a frame was taken in last
+  int untold_ = 0;                      ///< frames the planner has not heard of
   FrameCounts counts_;
   StageTimer stages_;
   Expected<void> failure_;  ///< of the thread
