@@ -64,6 +64,12 @@ struct MissionOptions {
   std::string name = "mission";
   std::vector<SegmentPlan> segments;
   double segment_time_s = 60.0;  ///< transitions between segments are not counted in it
+  std::string protocol;  ///< name of the rules it is run by (config/protocols.h); empty: own
+  int max_views = 0;     ///< a segment ends after so many views; 0: as many as there is time
+  bool leave_when_done = false;  ///< a segment ends when its planner says so (Decision::done)
+  /// One budget for the whole row: what a segment leaves of its share goes to those behind it. Only
+  /// with the whole clock.
+  bool shares_time = false;
   MissionClock clock = MissionClock::paper;
   double mission_time_s = 0.0;  ///< T of the whole clock (mission_time.h); 0: the paper's clock
   OnTheWayOptions on_the_way;

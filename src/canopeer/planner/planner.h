@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -44,7 +45,8 @@ struct Decision {
     move,   ///< take `motion`
     wait,   ///< nothing to go for yet; ask again after some background work
     stuck,  ///< no way on from here; a move home may help
-    drive   ///< drive the trolley: `drive`; the arm stays as it is
+    drive,  ///< drive the trolley: `drive`; the arm stays as it is
+    done    ///< nothing here is worth going for any more; the segment ends where it may
   };
   Action action = Action::wait;
   ViewMotion motion;
@@ -82,6 +84,8 @@ struct PlanningScene {
   std::shared_ptr<const MapSnapshot> snapshot{};
   SegmentFrame segment;
   std::uint64_t seed = 1;
+  /// Of the segment, when it begins (of the rest of it in restore()), s; infinite: no limit.
+  double time_left_s = std::numeric_limits<double>::infinity();
   bool looks_on_the_way = false;  ///< frames are taken while the arm or the trolley moves
   /// The arm moves no faster than this, so that they are sharp; nothing: as fast as it can.
   std::optional<ImageMotionLimit> sharp{};

@@ -98,6 +98,7 @@ PlanningScene SegmentRunner::planning_scene() const {
   scene.snapshot = snapshot();
   scene.segment = frame_;
   scene.seed = tools_.options.seed;
+  scene.time_left_s = budget_s() - (tools_.time.now_s() - tools_.cursor.segment_start_s);
   scene.looks_on_the_way = tools_.frames.wanted();
   scene.sharp = tools_.options.on_the_way.limit();
   return scene;
@@ -133,6 +134,10 @@ Expected<void> SegmentRunner::step() {
       return recover();
     case Decision::Action::drive:
       return drive(decision.drive);
+    case Decision::Action::done:
+      tools_.cursor.skip = tools_.options.leave_when_done;
+      if (!tools_.cursor.skip) tools_.time.pass(kWaitStep);
+      return {};
   }
   return {};
 }

@@ -39,7 +39,11 @@ struct BatchTask : BackgroundTask {
 
 }  // namespace
 
-VmpPlanner::VmpPlanner(const VmpOptions& options) : options_(options) {}
+VmpPlanner::VmpPlanner(const VmpOptions& options)
+    : options_(options), finder_(options.finder ? options.finder() : nullptr) {
+  CANOPEER_CHECK((options_.search == VmpOptions::Search::other) == (finder_ != nullptr),
+                 "another search comes with its finder");
+}
 
 void VmpPlanner::begin_segment(const PlanningScene& scene) {
   scene_ = scene;
@@ -60,6 +64,9 @@ void VmpPlanner::begin_segment(const PlanningScene& scene) {
   stood_s_ = 0.0;
   search_just_ran_ = false;
   counts_ = {};
+  time_left_s_ = scene_.time_left_s;
+  targets_ = {};
+  if (finder_) finder_->begin_segment();
 }
 
 void VmpPlanner::map_changed(MapChange change) {
@@ -67,6 +74,7 @@ void VmpPlanner::map_changed(MapChange change) {
   scene_.snapshot = std::move(change.snapshot);
   if (options_.occupied_means_roi) keep_roi_neighbors(*scene_.map, change.targets.occupied);
   graph_.invalidate_casts(change.blocks);
+  if (finder_) targets_ = change.targets;
   std::vector<NodeId> keep = path();
   if (goal_) keep.push_back(*goal_);
   builder_->set_targets(*scene_.map, std::move(change.targets), keep);
@@ -74,7 +82,7 @@ void VmpPlanner::map_changed(MapChange change) {
 
 Decision VmpPlanner::decide(const Configuration& q, WorkMeter& work) {
   arrive(q, work);
-  if (look_ahead_used_up()) path_.clear();
+  if (look_ahead_used_up() || !worth_following(work)) path_.clear();
   // Each round takes an edge out of the graph, so this ends.
   while (true) {
     if (path_.empty()) {
@@ -100,6 +108,7 @@ void VmpPlanner::time_passes(double seconds) {
   stood_s_ += seconds;
   path_age_s_ += seconds;
   waited_s_ += seconds;
+  time_left_s_ -= seconds;
 }
 
 std::unique_ptr<BackgroundTask> VmpPlanner::next_task() {
@@ -162,14 +171,19 @@ PlanSketch VmpPlanner::sketch() const {
 Expected<std::string> VmpPlanner::state() const {
   if (!builder_) return fail("no segment has begun");
   // The other searches look at no cast of an earlier one.
-  const bool kept = options_.search == VmpOptions::Search::best_first;
-  return state_bytes(*this, kept ? graph_.with_casts() : std::vector<NodeId>());
+  const bool kept = options_.search == VmpOptions::Search::best_first || finder_;
+  return state_bytes(*this, kept ? graph_.with_casts() : std::vector<NodeId>(),
+                     finder_ ? finder_->state() : std::string());
 }
 
 Expected<void> VmpPlanner::restore(const PlanningScene& scene, std::string_view state) {
   begin_segment(scene);
   std::vector<NodeId> with_casts;
-  if (auto ok = read_state_bytes(state, *this, with_casts); !ok) return ok;
+  std::string finder;
+  if (auto ok = read_state_bytes(state, *this, with_casts, finder); !ok) return ok;
+  if (finder_) {
+    if (auto ok = finder_->restore(finder); !ok) return ok;
+  }
   // What a view would see is kept only as long as no block its rays cross has changed, so a cast
   // on the present map gives the same. It was paid for when it was first made.
   WorkMeter paid;
@@ -221,6 +235,8 @@ void VmpPlanner::plan(WorkMeter& work) {
     path = search_path(graph_, at_, *scene_.map, options_.path_search, work);
   } else if (options_.search == VmpOptions::Search::released) {
     path = search_released(graph_, at_, *scene_.map, options_.released_search, *scene_.costs, work);
+  } else if (finder_) {
+    path = finder_->find(query(), work);
   } else {
     Rng rng(scene_.seed, "random walk",
             (static_cast<std::uint64_t>(scene_.segment.index) << 32) + walks_++);
@@ -232,6 +248,16 @@ void VmpPlanner::plan(WorkMeter& work) {
   searched_ = true;
   ++counts_.searches;
   search_just_ran_ = true;
+}
+
+PathQuery VmpPlanner::query() {
+  return {&graph_,      at_,          scene_.map,  &targets_,   &scene_.segment,
+          scene_.robot, scene_.costs, scene_.seed, time_left_s_};
+}
+
+bool VmpPlanner::worth_following(WorkMeter& work) {
+  if (!finder_ || path_.empty() || executed_rad_ == 0.0) return true;
+  return finder_->keeps(query(), work);
 }
 
 bool VmpPlanner::look_ahead_used_up() const {
@@ -289,6 +315,7 @@ Decision VmpPlanner::hold() {
   Decision decision;
   decision.action =
       waited_s_ > options_.max_wait_s ? Decision::Action::stuck : Decision::Action::wait;
+  if (finder_ && finder_->done()) decision.action = Decision::Action::done;
   return decision;
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "canopeer/planner/planner.h"
+#include "canopeer/search/path_finder.h"
 #include "canopeer/search/path_search.h"
 #include "canopeer/search/released_search.h"
 #include "canopeer/search/view_path.h"
@@ -16,12 +17,14 @@ struct VmpOptions {
   enum class Search {
     best_first,   ///< Algorithm 1 of the paper
     random_walk,  ///< a random path over the same graph, to measure what the search is worth
-    released      ///< the published code's: by accumulated cost
+    released,     ///< the published code's: by accumulated cost
+    other         ///< that of `finder`
   };
   GraphBuilderOptions builder;
   PathSearchOptions path_search;
   ReleasedSearchOptions released_search;
   Search search = Search::best_first;
+  PathFinderFactory finder;  ///< of another planner on the same graph
   int random_walk_views = 3;
   double look_ahead_rad =
       5.0;  ///< Σ|Δq| executed of a path at most before the next search; one edge is always taken
@@ -66,7 +69,8 @@ class VmpPlanner : public Planner {
   template <typename Archive>
   void serialize(Archive& archive) {
     archive(graph_, *builder_, path_, at_, goal_, started_, searched_, executed_rad_, path_age_s_,
-            credit_s_, waited_s_, stood_s_, search_just_ran_, walks_, counts_);
+            credit_s_, waited_s_, stood_s_, search_just_ran_, walks_, counts_, time_left_s_,
+            targets_);
   }
 
  private:
@@ -80,6 +84,8 @@ class VmpPlanner : public Planner {
   [[nodiscard]] bool edge_clear(NodeId a, NodeId b, WorkMeter& work) const;
   [[nodiscard]] bool judged_clear(const Configuration& a, const Configuration& b,
                                   WorkMeter& work) const;
+  [[nodiscard]] PathQuery query();
+  [[nodiscard]] bool worth_following(WorkMeter& work);
   Decision go(const Configuration& q, const PathStep& step);
   Decision hold();
   [[nodiscard]] const EndlessJoints& endless() const { return scene_.robot->endless(); }
@@ -100,7 +106,10 @@ class VmpPlanner : public Planner {
   double stood_s_ = 0.0;          ///< since the last frame
   bool search_just_ran_ = false;  ///< the next background time is that of a search
   std::uint64_t walks_ = 0;
-  PlannerStatus counts_;  ///< of the segment; the graph's sizes are not in it
+  double time_left_s_ = 0.0;            ///< of the segment
+  std::unique_ptr<PathFinder> finder_;  ///< null: a search of its own
+  FrontierTargets targets_;             ///< for the finder only
+  PlannerStatus counts_;                ///< of the segment; the graph's sizes are not in it
 };
 
 }  // namespace canopeer
