@@ -20,7 +20,7 @@ using Json = nlohmann::json;
 /// A mission's events, all of them.
 class Everything : public Watcher {
  public:
-  EventNeeds needs() const override { return {true, true}; }
+  EventNeeds needs() const override { return {true, true, true}; }
   void on_event(const Event& event) override { events.push_back(event); }
   std::vector<Event> events;
 };
@@ -202,6 +202,51 @@ TEST(RunFrames, APageCanPutTogetherMapTargetsPlanAndFruitsAtEveryMoment) {
   EXPECT_EQ(page.frames["picture"], 3 * page.frames["view"]);
   EXPECT_EQ(page.frames["motion"], page.frames["motion_end"]);
   EXPECT_EQ(page.frames["end"], 1);
+}
+
+TEST(RunFrames, EachFruitsPointsLieOnItsSurfaceAndAreToldOnceEach) {
+  RunFrames frames(story(), test::test_robot(), nullptr);
+  std::map<int, std::vector<Vec3>> points;  // by fruit
+  const SurfaceMesh* mesh = nullptr;
+  int told = 0;
+  for (const Event& event : events_of_a_mission()) {
+    for (const Frame& frame : frames.of(event)) {
+      const auto [head, octets] = parse(frame);
+      if (head.at("type") != "surface") continue;
+      const char* at = octets.data();
+      for (const Json& fruit : head.at("fruits")) {
+        ++told;
+        EXPECT_LE(fruit.at("points"), 400);
+        auto& of_fruit = points[fruit.at("id")];
+        of_fruit.clear();
+        for (int i = 0; i < fruit.at("points"); ++i) {
+          Vec3 p;
+          for (int k = 0; k < 3; ++k, at += 2)
+            p[k] = fruit.at("origin")[k].get<double>() + 1e-4 * load_number<std::int16_t>(at);
+          of_fruit.push_back(p);
+        }
+      }
+      EXPECT_EQ(at, octets.data() + octets.size());
+    }
+    if (const auto* end = std::get_if<RunEnded>(&event)) mesh = end->surface.get();
+  }
+  ASSERT_NE(mesh, nullptr);
+  std::map<int, std::vector<Vec3>> surface;
+  for (std::size_t i = 0; i < mesh->vertices.size(); ++i) {
+    if (mesh->fruit[i] >= 0) surface[mesh->fruit[i]].push_back(mesh->vertices[i].surface.point);
+  }
+  ASSERT_GE(surface.size(), 1U);
+  ASSERT_LE(surface.size(), points.size());
+  for (const auto& [id, vertices] : surface) {
+    ASSERT_TRUE(points.contains(id));
+    EXPECT_EQ(points[id].size(), std::min<std::size_t>(400, vertices.size()));
+    for (const Vec3& p : points[id]) {
+      double nearest = 1.0;
+      for (const Vec3& vertex : vertices) nearest = std::min(nearest, (vertex - p).norm());
+      EXPECT_LT(nearest, 2e-4);
+    }
+  }
+  EXPECT_LT(told, 2 * static_cast<int>(points.size()) + 1);
 }
 
 /// How many voxels the page lacks or has too many.

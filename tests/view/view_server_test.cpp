@@ -127,6 +127,20 @@ TEST_F(ViewServerTest, WordsCountWithTheTokenOnly) {
   EXPECT_EQ(speed_.get_future().get(), 4.0);
 }
 
+TEST_F(ViewServerTest, AllReadersHearOfThePaceAlsoLateOnes) {
+  const std::string pace = "{\"type\":\"pace\",\"factor\":4.0,\"bytes\":0}\n";
+  Socket owner(connect());
+  ASSERT_FALSE(open(owner, "/socket?token=secret"));
+  for (int i = 0; i < 3; ++i) EXPECT_NE(read(owner), "closed");  // what there was
+  owner.write(asio::buffer(std::string(R"({"type":"speed","factor":4})")));
+  EXPECT_EQ(read(owner), pace);
+  Socket late(connect());
+  ASSERT_FALSE(open(late, "/socket"));
+  EXPECT_NE(read(late).find("\"type\":\"reader\""), std::string::npos);
+  EXPECT_EQ(read(late), pace);
+  EXPECT_EQ(read(late), "{\"type\":\"hello\",\"bytes\":0}\n");
+}
+
 TEST_F(ViewServerTest, WhoTalksTooMuchOrTooLongIsShownTheDoor) {
   Socket chatterer(connect());
   ASSERT_FALSE(open(chatterer, "/socket?token=secret"));

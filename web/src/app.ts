@@ -173,7 +173,7 @@ export class App implements Actions {
   }
 
   private take(message: Message | null): void {
-    if (message?.type !== "reader") ++this.timeline.taken;
+    if (message?.type !== "reader" && message?.type !== "pace") ++this.timeline.taken;
     if (message) this.timeline.append(message);
     if (message?.type === "hello") {
       this.scene?.load(this.timeline);
@@ -197,7 +197,7 @@ export class App implements Actions {
   private takeDamaged(why: string): void {
     console.warn(why);
     ++this.timeline.taken;
-    this.timeline.append({ type: "log", t: this.timeline.newest, level: "notice", text: `A message could not be read: ${why}` });
+    this.timeline.append({ type: "log", t: this.timeline.newest, level: "notice", text: `A message could not be read: ${why}`, word: "" });
     this.afterFrame();
   }
 

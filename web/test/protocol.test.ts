@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import { FrameError } from "../src/data/fields.ts";
-import type { Fruits, MapChange, Motion, Plan, Robot, Truth, View } from "../src/data/messages.ts";
+import type { Fruits, MapChange, Motion, Plan, Robot, Surface, Truth, View } from "../src/data/messages.ts";
 import { readFrame, splitFrames } from "../src/data/protocol.ts";
 import { file, frame, random } from "./made/frames.ts";
 import { robotHead } from "./made/robot.ts";
@@ -141,4 +141,13 @@ test("parts of the truth are within its triangles", () => {
   const truth = makeRun({ segments: 0, plants: 2 }).map(readFrame).find((m) => m?.type === "truth") as Truth;
   for (const part of truth.parts) assert.ok(3 * (part.first + part.triangles) <= truth.triangles.length);
   assert.equal(truth.fruits.length, 16);
+});
+
+test("points of a surface lie around the fruit's origin", () => {
+  const head = { type: "surface", t_s: 2, fruits: [{ id: 4, origin: [1, 2, 3], points: 2 }] };
+  const surface = readFrame(frame(head, Int16Array.of(0, 10, -10, 10000, 0, 0))) as Surface;
+  assert.equal(surface.fruits[0].id, 4);
+  const near = (a: number, b: number) => assert.ok(Math.abs(a - b) < 1e-5, `${a} ${b}`);
+  [1, 2.001, 2.999, 2, 2, 3].forEach((x, i) => near(surface.fruits[0].points[i], x));
+  refuses(frame(head, Int16Array.of(0, 10, -10)), /too few/);
 });

@@ -230,3 +230,29 @@ test("a fruit may be found on the way", () => {
   assert.match(timeline.events.at(-1)?.text ?? "", /Fruit 900 found on the way from view 17/);
   assert.ok(!timeline.fruitsOfView.get(17)?.some((f) => f.id === 900));
 });
+
+test("a fruit's points are the last told by then, else the first", () => {
+  const timeline = new Timeline();
+  const tell = (t: number, x: number) =>
+    timeline.append(read({ type: "surface", t_s: t, fruits: [{ id: 1, origin: [x, 0, 0], points: 1 }] }, Int16Array.of(0, 0, 0)));
+  timeline.append(read({ type: "log", t_s: 0, text: "begins" }));
+  tell(5, 1);
+  tell(9, 2);
+  assert.equal(timeline.surfaceOf(1, 0)?.points[0], 1);
+  assert.equal(timeline.surfaceOf(1, timeline.stepAt(6))?.points[0], 1);
+  assert.equal(timeline.surfaceOf(1, timeline.stepAt(9))?.points[0], 2);
+  assert.equal(timeline.surfaceOf(2, 2), null);
+});
+
+test("a late page knows whether the mission holds, and its pace", () => {
+  const timeline = new Timeline();
+  assert.equal(timeline.holds, false);
+  timeline.append(read({ type: "log", t_s: 1, level: "notice", text: "pause, said page", word: "pause" }));
+  assert.equal(timeline.holds, true);
+  timeline.append(read({ type: "log", t_s: 1, level: "info", text: "something else" }));
+  assert.equal(timeline.holds, true);
+  timeline.append(read({ type: "log", t_s: 1, level: "notice", text: "go on", word: "go_on" }));
+  assert.equal(timeline.holds, false);
+  timeline.append(read({ type: "pace", factor: 5 }));
+  assert.equal(timeline.pace, 5);
+});

@@ -14,7 +14,9 @@ namespace canopeer {
 class ReplayWatcher : public Watcher {
  public:
   ReplayWatcher(std::unique_ptr<RunFrames> frames, std::shared_ptr<ReplayLog> log);
-  [[nodiscard]] EventNeeds needs() const override { return {true, true}; }
+  [[nodiscard]] EventNeeds needs() const override {
+    return {.map = true, .plan = true, .surface = true};
+  }
   void on_event(const Event& event) override;
   void on_loss(std::int64_t events) override;
 

@@ -11,6 +11,7 @@
 #include "canopeer/replay/frames/picture_frames.h"
 #include "canopeer/replay/frames/plan_frames.h"
 #include "canopeer/replay/frames/still_frames.h"
+#include "canopeer/replay/frames/surface_frames.h"
 
 namespace canopeer {
 
@@ -38,6 +39,7 @@ struct RunFrames::State {
   MapFrames map;
   PlanFrames plan;
   FruitFrames fruit;
+  SurfaceFrames surface;
 
   /// What frames on the way changed and nobody was told yet.
   struct Held {
@@ -91,7 +93,10 @@ struct RunFrames::State {
   std::vector<Frame> frames(const SegmentBegun& begun) const {
     return {segment_frame(begun.segment, trolley(begun.segment.segment))};
   }
-  std::vector<Frame> frames(const SegmentEnded&) const { return {}; }
+  std::vector<Frame> frames(const SegmentEnded& ended) {
+    if (!ended.surface) return {};
+    return surface.surface(ended.end_s, *ended.surface);
+  }
   std::vector<Frame> frames(const FrameTaken& taken) {
     on_the_way = false;
     const CameraIntrinsics& camera = taken.frame->intrinsics;
@@ -141,11 +146,14 @@ struct RunFrames::State {
     std::replace(text.begin(), text.end(), '_', ' ');
     if (!steered.word.by.empty()) text += ", said " + steered.word.by;
     if (!steered.word.why.empty()) text += ": " + steered.word.why;
-    return {log_frame(steered.t_s, "notice", text)};
+    return {log_frame(steered.t_s, "notice", text, steering_name(steered.word.kind))};
   }
   std::vector<Frame> frames(const WorkDone& done) const { return {work_frame(done.work)}; }
   std::vector<Frame> frames(const RunEnded& end) {
     std::vector<Frame> all = all_held();
+    if (end.surface) {
+      for (Frame& frame : surface.surface(end.end_s, *end.surface)) all.push_back(std::move(frame));
+    }
     all.push_back(end_frame(end));
     return all;
   }

@@ -47,6 +47,7 @@ struct Shared {
   std::shared_ptr<ReplayLog> log;
   ViewControls controls;
   ViewGuard guard;
+  double speed = 0.0;  // as said last
   std::atomic<int> readers{0};
   int connections = 0;
 };
@@ -61,7 +62,10 @@ class Reader : public std::enable_shared_from_this<Reader> {
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
-  void begin(const http::request<http::empty_body>& request) {
+  /// All readers are to hear of something new.
+  using Tell = std::function<void()>;
+  void begin(const http::request<http::empty_body>& request, Tell tell_all) {
+    tell_all_ = std::move(tell_all);
     may_steer_ = shared_.controls.steer &&
                  shared_.guard.has_token({request.target().data(), request.target().size()});
     beast::get_lowest_layer(socket_).expires_never();
@@ -77,6 +81,7 @@ class Reader : public std::enable_shared_from_this<Reader> {
     socket_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
       if (error) return;
       self->waiting_.push_back(self->greeting());
+      if (self->told_speed_ != self->shared_.speed) self->waiting_.push_back(self->pace());
       self->listen();
       self->pump();
     });
@@ -85,6 +90,7 @@ class Reader : public std::enable_shared_from_this<Reader> {
   /// Sends what is there, one frame after the other; called when there may be more.
   void pump() {
     if (sending_ || !socket_.is_open()) return;
+    if (told_speed_ != shared_.speed) waiting_.push_front(pace());
     if (waiting_.empty() && !next_piece()) return;
     sending_ = true;
     socket_.async_write(asio::buffer(waiting_.front()),
@@ -114,6 +120,12 @@ class Reader : public std::enable_shared_from_this<Reader> {
                                          {"controls", may_steer_},
                                          {"frames", shared_.log->frames()},
                                          {"bytes", 0}};
+    return head.dump() + "\n";
+  }
+
+  [[nodiscard]] std::string pace() {
+    told_speed_ = shared_.speed;
+    const nlohmann::ordered_json head = {{"type", "pace"}, {"factor", shared_.speed}, {"bytes", 0}};
     return head.dump() + "\n";
   }
 
@@ -184,13 +196,18 @@ class Reader : public std::enable_shared_from_this<Reader> {
     const nlohmann::json factor = json.value("factor", nlohmann::json());
     if (type == "speed" && factor.is_number() && shared_.controls.speed) {
       const double speed = factor.get<double>();
-      if (speed >= 0.0 && speed <= 1e6) shared_.controls.speed(speed);
+      if (!(speed >= 0.0 && speed <= 1e6)) return;
+      shared_.controls.speed(speed);
+      shared_.speed = speed;
+      tell_all_();
     }
   }
 
   websocket::stream<beast::tcp_stream> socket_;
   Shared& shared_;
+  Tell tell_all_;
   bool may_steer_ = false;
+  double told_speed_ = 0.0;
   bool sending_ = false;
   bool caught_up_ = false;
   std::size_t piece_ = 0;  // the next one
@@ -204,7 +221,8 @@ class Reader : public std::enable_shared_from_this<Reader> {
 /// One request, answered and closed, or turned into a reader.
 class Request : public std::enable_shared_from_this<Request> {
  public:
-  using Adopt = std::function<void(const std::shared_ptr<Reader>&)>;
+  /// Takes a reader in, and gives what tells all of them.
+  using Adopt = std::function<Reader::Tell(const std::shared_ptr<Reader>&)>;
   Request(tcp::socket&& socket, Shared& shared, Adopt adopt)
       : stream_(std::move(socket)), shared_(shared), adopt_(std::move(adopt)) {
     ++shared_.connections;
@@ -268,8 +286,7 @@ class Request : public std::enable_shared_from_this<Request> {
       return send(http::status::service_unavailable, "text/plain", "Too many look on already.\n");
     }
     auto reader = std::make_shared<Reader>(std::move(stream_), shared_);
-    adopt_(reader);
-    reader->begin(parser_.get());
+    reader->begin(parser_.get(), adopt_(reader));
   }
 
   void send(http::status status, const char* type, std::string_view body,
@@ -321,6 +338,7 @@ struct ViewServer::State {
         std::make_shared<Request>(std::move(socket), *shared, [this](const auto& reader) {
           std::erase_if(all_readers, [](const auto& one) { return one.expired(); });
           all_readers.push_back(reader);
+          return [this] { asio::post(context, [this] { pump_all(); }); };
         })->begin();
       }
       accept();

@@ -41,6 +41,13 @@ export class History<V> {
     return this.values[this.newest.get(key) ?? -1];
   }
 
+  /** The first there was. */
+  first(key: number): V | undefined {
+    let version = this.newest.get(key) ?? -1;
+    while (version >= 0 && this.before[version] >= 0) version = this.before[version];
+    return this.values[version];
+  }
+
   /** All that is there after this step. */
   *entriesAt(step: number): Generator<[number, V]> {
     for (const [key, newest] of this.newest) {

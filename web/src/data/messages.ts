@@ -246,11 +246,30 @@ export interface Fruits {
   gone: number[];
 }
 
+/** Points of a fruit's surface, world. */
+export interface FruitPoints {
+  id: number;
+  points: Float32Array; // x y z
+}
+
+export interface Surface {
+  type: "surface";
+  t: number;
+  fruits: FruitPoints[];
+}
+
 export interface Log {
   type: "log";
   t: number;
   level: string;
   text: string;
+  word: string; // that somebody steered by; empty: none
+}
+
+/** How fast simulated time goes, as somebody set it. */
+export interface Pace {
+  type: "pace";
+  factor: number; // 0: as fast as it goes
 }
 
 export interface WorkEntry {
@@ -291,7 +310,9 @@ export type Message =
   | Motion
   | MotionEnd
   | Fruits
+  | Surface
   | Log
+  | Pace
   | Work
   | End
   | Lost;

@@ -22,6 +22,10 @@ export class Octets {
     return new Float32Array(this.aligned(count));
   }
 
+  int16(count: number): Int16Array {
+    return new Int16Array(this.aligned(count, 2));
+  }
+
   int32(count: number): Int32Array {
     return new Int32Array(this.aligned(count));
   }
@@ -54,8 +58,8 @@ export class Octets {
   }
 
   /** Typed arrays need their own, aligned memory. */
-  private aligned(count: number): ArrayBuffer {
-    const bytes = this.take(4 * count);
+  private aligned(count: number, each = 4): ArrayBuffer {
+    const bytes = this.take(each * count);
     const copy = new ArrayBuffer(bytes.length);
     new Uint8Array(copy).set(bytes);
     return copy;

@@ -10,6 +10,7 @@ import type {
   Motion,
   Picture,
   Plan,
+  Surface,
   Targets,
   View,
 } from "./messages.ts";
@@ -93,12 +94,15 @@ const kReaders: Record<string, (f: Fields, o: Octets) => Message> = {
     changed: f.listOr("changed").map(readFruit),
     gone: f.numbersOr("gone", []),
   }),
+  surface: readSurface,
   log: (f) => ({
     type: "log",
     t: f.number("t_s"),
     level: f.textOr("level", "info"),
     text: f.text("text"),
+    word: f.textOr("word", ""),
   }),
+  pace: (f) => ({ type: "pace", factor: f.number("factor") }),
   work: (f) => ({
     type: "work",
     work: f.list("work").map((w) => ({
@@ -110,6 +114,18 @@ const kReaders: Record<string, (f: Fields, o: Octets) => Message> = {
   end: (f) => ({ type: "end", t: f.number("t_s"), interrupted: f.flagOr("interrupted", false) }),
   lost: (f) => ({ type: "lost", frames: f.count("frames") }),
 };
+
+const kSurfaceStep_m = 1e-4;
+
+function readSurface(f: Fields, o: Octets): Surface {
+  const fruits = f.list("fruits").map((fruit) => {
+    const origin = fruit.vector("origin");
+    const steps = o.int16(3 * fruit.count("points"));
+    const points = Float32Array.from(steps, (step, i) => origin[i % 3] + kSurfaceStep_m * step);
+    return { id: fruit.integer("id"), points };
+  });
+  return { type: "surface", t: f.number("t_s"), fruits };
+}
 
 /**
  * Reads one frame: a line of JSON, then octets. Nothing where its type is unknown; throws

@@ -6,6 +6,7 @@ import type {
   Camera,
   End,
   Fruit,
+  FruitPoints,
   Fruits,
   GraphNode,
   Hello,
@@ -74,6 +75,12 @@ export class Timeline {
   readonly map = new BlockHistory();
   readonly targets = new BlockHistory();
   readonly fruits = new History<Fruit>();
+  /** Points of their surfaces, as of the ends of segments. */
+  readonly surfaces = new History<FruitPoints>();
+  /** The mission holds: somebody told it to. */
+  holds = false;
+  /** How fast simulated time goes; 0: as fast as it can. */
+  pace = 0;
   /** Fruits that each view found or changed. */
   readonly fruitsOfView = new Map<number, Fruit[]>();
   readonly nodes = new History<GraphNode>();
@@ -131,6 +138,11 @@ export class Timeline {
     return [...this.views, ...this.looks].map(({ t, fruits }) => ({ t, fruits })).sort((a, b) => a.t - b.t);
   }
 
+  /** Points of a fruit's surface: the last ones told by then, else the first that come later. */
+  surfaceOf(fruit: number, step: number): FruitPoints | null {
+    return this.surfaces.at(fruit, step) ?? this.surfaces.first(fruit) ?? null;
+  }
+
   view(number: number): View | null {
     const guess = this.views[number];
     if (guess?.view === number) return guess;
@@ -157,6 +169,11 @@ export class Timeline {
   append(message: Message): void {
     if (message.type === "reader") {
       this.reader = message;
+      return;
+    }
+    if (message.type === "pace") {
+      this.pace = message.factor;
+      ++this.changes;
       return;
     }
     const said = "t" in message ? message.t : this.newest;
@@ -215,7 +232,11 @@ export class Timeline {
       case "fruits":
         this.addFruits(step, t, message);
         break;
+      case "surface":
+        for (const fruit of message.fruits) this.surfaces.set(step, fruit.id, fruit);
+        break;
       case "log":
+        if (message.word !== "") this.holds = message.word === "pause" || message.word === "wait_for_person";
         this.tell(t, level(message), message.text);
         break;
       case "work":

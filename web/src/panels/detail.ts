@@ -81,7 +81,8 @@ export class Detail {
 
   private showFruit({ timeline, step, t, view }: Moment, id: number): void {
     const fruit = timeline.fruits.at(id, step);
-    const as = [timeline, id, fruit, view];
+    const points = timeline.surfaceOf(id, step);
+    const as = [timeline, id, fruit, view, points];
     if (same(as, this.shownAs)) return;
     this.shownAs = as;
     setText(this.title, `Fruit ${id}`);
@@ -92,7 +93,7 @@ export class Detail {
     }
     const { thumbs } = this;
     const heading = el("h3", {}, "Pictures that saw it");
-    fill(this.body, el("div", { class: "buttons" }, this.lookButton()), outlines(fruit), fruitFigures(fruit), heading, thumbs);
+    fill(this.body, el("div", { class: "buttons" }, this.lookButton()), outlines(fruit, points), fruitFigures(fruit), heading, thumbs);
     void this.findPictures(timeline, fruit, t, thumbs, heading);
   }
 

@@ -5,6 +5,7 @@ import type { View } from "../data/messages.ts";
 import type { Layers } from "../layers.ts";
 import type { Palette, Theme } from "../theme.ts";
 import { BlockCloud } from "./block_cloud.ts";
+import { SurfacePoints } from "./fruit_points.ts";
 import { FruitShapes } from "./fruit_shapes.ts";
 import { Frustum, PictureSheet, shoulder } from "./frustum.ts";
 import { GraphLines } from "./graph_lines.ts";
@@ -25,6 +26,9 @@ export class World {
   readonly chosenFrustum = new Frustum(0.4);
   readonly sheet = new PictureSheet(0.3);
   readonly fruits = new FruitShapes();
+  readonly points = new SurfacePoints();
+  private chosen = -1;
+  private step = -1;
   readonly graph = new GraphLines();
   readonly marks = new ViewMarks(markedViews);
   readonly looks = new ViewMarks(markedLooks);
@@ -52,7 +56,7 @@ export class World {
     stage.scene.add(
       this.ground.group, this.truth.plants, this.truth.around, this.trueFruits.group, this.robot.group,
       this.map.group, this.targets.group, this.graph.group, this.paths.driven,
-      this.paths.planned, this.fruits.group, this.marks.group, this.looks.group, this.boxes.group,
+      this.paths.planned, this.fruits.group, this.points.group, this.marks.group, this.looks.group, this.boxes.group,
       this.frustum.group, this.chosenFrustum.group, this.sheet.group,
     ); // prettier-ignore
     this.chosenFrustum.group.visible = false;
@@ -76,11 +80,13 @@ export class World {
   show(t: number, step: number): void {
     const timeline = this.timeline;
     if (!timeline) return;
+    this.step = step;
     this.takeStill(timeline);
     this.map.show(timeline.map, step);
     if (this.layers.isOn("frontiers")) this.targets.show(timeline.targets, step);
     if (this.layers.isOn("graph")) this.graph.show(timeline, step);
     this.fruits.show(timeline.fruits, step);
+    this.points.show(timeline.surfaceOf(this.chosen, step));
     this.marks.show(timeline, t);
     this.looks.show(timeline, t);
     this.boxes.show(timeline.segmentAt(t));
@@ -119,7 +125,10 @@ export class World {
     this.stage.ask();
   }
 
+  /** −1: none. */
   chooseFruit(id: number): void {
+    this.chosen = id;
+    this.points.show(this.timeline?.surfaceOf(id, this.step) ?? null);
     this.fruits.select(id);
     this.stage.ask();
   }
@@ -191,7 +200,7 @@ export class World {
     this.targetUniforms.colorB.value.set(palette.occupied);
     this.targetUniforms.colorC.value.set(palette.border);
     for (const part of [
-      this.ground, this.robot, this.frustum, this.fruits, this.graph,
+      this.ground, this.robot, this.frustum, this.fruits, this.points, this.graph,
       this.marks, this.looks, this.truth, this.trueFruits, this.paths, this.boxes,
     ]) part.paint(palette); // prettier-ignore
     this.chosenFrustum.paint(palette, palette.accent);
@@ -209,7 +218,7 @@ export class World {
     this.graph.group.visible = on("graph");
     this.paths.planned.visible = on("planned");
     this.paths.driven.visible = on("driven");
-    this.fruits.group.visible = on("fruits");
+    this.fruits.group.visible = this.points.group.visible = on("fruits");
     this.truth.plants.visible = on("plants");
     this.truth.around.visible = on("around");
     this.trueFruits.group.visible = on("trueFruits");

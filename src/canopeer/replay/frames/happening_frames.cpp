@@ -137,11 +137,13 @@ Frame work_frame(const std::vector<WorkItem>& work) {
   return frame_of(head);
 }
 
-Frame log_frame(double t_s, std::string_view level, const std::string& text) {
+Frame log_frame(double t_s, std::string_view level, const std::string& text,
+                std::string_view word) {
   Json head = head_of("log");
   head["t_s"] = from_time(t_s);
   head["level"] = level;
   head["text"] = text;
+  if (!word.empty()) head["word"] = word;
   return frame_of(head);
 }
 

@@ -23,7 +23,9 @@ namespace canopeer::frames {
 [[nodiscard]] Frame motion_frame(const MotionBegun& motion, const RobotModel& robot);
 [[nodiscard]] Frame motion_end_frame(const MotionEvent& motion);
 [[nodiscard]] Frame work_frame(const std::vector<WorkItem>& work);
-[[nodiscard]] Frame log_frame(double t_s, std::string_view level, const std::string& text);
+/// `word`: said by who steers; empty: nobody did.
+[[nodiscard]] Frame log_frame(double t_s, std::string_view level, const std::string& text,
+                              std::string_view word = {});
 [[nodiscard]] Frame end_frame(const RunEnded& end);
 
 /// Fruits that changed since the last time.
