@@ -4,8 +4,9 @@ include(CMakePackageConfigHelpers)
 
 # The program
 install(TARGETS canopeer RUNTIME COMPONENT program)
-install(DIRECTORY robots missions worlds compute_tables ros2 DESTINATION ${CMAKE_INSTALL_DATADIR}/canopeer COMPONENT program
+install(DIRECTORY benchmark compute_tables missions records robots ros2 worlds DESTINATION ${CMAKE_INSTALL_DATADIR}/canopeer COMPONENT program
         PATTERN this-machine.yaml EXCLUDE PATTERN __pycache__ EXCLUDE)
+install(PROGRAMS slurm/submit.sh slurm/bench.sbatch slurm/compare.sbatch DESTINATION ${CMAKE_INSTALL_DATADIR}/canopeer/slurm COMPONENT program)
 set(completion apps/canopeer/completion)
 install(FILES ${completion}/canopeer.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
         RENAME canopeer COMPONENT program)

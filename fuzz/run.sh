@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-60}
 targets=("${@:2}")
-[ ${#targets[@]} -gt 0 ] || targets=(cdr octomap cmap cloud png trajectory collada_asset ros2_images scan_rows sdf_world)
+[ ${#targets[@]} -gt 0 ] || targets=(cdr octomap cmap cloud png trajectory collada_asset ros2_images scan_rows scene_file sdf_world)
 [ -f build/fuzz/build.ninja ] || cmake --preset fuzz >/dev/null
 cmake --build build/fuzz -j 2 --target fuzz_seeds "${targets[@]/#/fuzz_}"
 build/fuzz/bin/fuzz_seeds build/fuzz/corpus

@@ -9,6 +9,7 @@
 #include "canopeer/map/cmap_file.h"
 #include "canopeer/map/files/map_cloud.h"
 #include "canopeer/map/octomap_file.h"
+#include "canopeer/scene/scene_file.h"
 #include "canopeer/sensing/png.h"
 
 namespace {
@@ -37,8 +38,28 @@ Expected<void> write_messages(const fs::path& folder) {
   return result;
 }
 
+/// A box of a fruit with a picture on it.
+Scene small_scene() {
+  Scene scene;
+  scene.name = "box";
+  scene.parts.emplace_back();
+  ScenePart& part = scene.parts.back();
+  part.mesh = make_box(Box(Vec3(0, 0, 0), Vec3(0.1, 0.1, 0.1)));
+  part.kind = PartClass::fruit;
+  part.fruit = 0;
+  part.uv.resize(part.mesh.vertices.size(), Eigen::Vector2f::Zero());
+  Texture texture;
+  texture.color = ColorImage(2, 2);
+  part.texture = std::make_shared<Texture>(texture);
+  scene.fruits.emplace_back();
+  scene.models.push_back({scene.parts});
+  scene.instances.emplace_back();
+  return scene;
+}
+
 bool write_all(const fs::path& root) {
-  for (const char* target : {"cdr", "octomap", "cmap", "cloud", "png", "trajectory"}) {
+  for (const char* target :
+       {"cdr", "octomap", "cmap", "cloud", "png", "scene_file", "trajectory"}) {
     fs::create_directories(root / target);
   }
   const VoxelMap map = BallScene::map(1, 1, 0.2);
@@ -61,6 +82,7 @@ bool write_all(const fs::path& root) {
       write_depth_png(root / "png/depth.png", depth, 5000.0),
       write_file(root / "png/binary.pgm", "P5\n2 1\n65535\nabcd"),
       write_file(root / "png/text.pgm", "P2 # mm\n2 1\n65535\n1500 65535\n"),
+      write_scene_file(root / "scene_file/box.cscene", small_scene()),
       write_png(root / "png/color.png", ColorImage(7, 5)),
       write_file(root / "trajectory/poses.txt", "# t\n0 1 2 3 0 0 0 1\n1.5 1 2 3 0 0 1 0\n"),
       write_file(root / "trajectory/euroc.csv",

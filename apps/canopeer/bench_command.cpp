@@ -1,17 +1,23 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <thread>
+#include <vector>
 
+#include "canopeer/campaign/campaign_merge.h"
 #include "canopeer/campaign/comparison_report.h"
 #include "canopeer/campaign/comparison_tables.h"
 #include "canopeer/campaign/job_pool.h"
+#include "canopeer/config/protocols.h"
 #include "commands.h"
 #include "exit_status.h"
 #include "mission_arguments.h"
 #include "progress_bar.h"
+#include "records.h"
 #include "shipped_data.h"
 #include "stop_signal.h"
+#include "suite_command.h"
 
 namespace canopeer::app {
 namespace {
@@ -26,7 +32,9 @@ void read_shard(const std::string& text, CampaignPlan& plan) {
   }
 }
 
-CampaignPlan plan_of(const BenchArguments& a) {
+}  // namespace
+
+CampaignPlan bench_plan(const BenchArguments& a) {
   CampaignPlan plan;
   for (const auto& mission : a.missions) plan.missions.push_back(mission_file_of(mission));
   for (const auto& text : a.planners) {
@@ -35,6 +43,10 @@ CampaignPlan plan_of(const BenchArguments& a) {
     plan.contestants.push_back(*contestant);
   }
   plan.budgets_s = a.budgets_s;
+  const auto protocols = expand_protocols(a.protocols);
+  if (!protocols) stop_with(kBadInput, {"--protocols: " + protocols.error().message});
+  plan.protocols = *protocols;
+  plan.yardsticks = a.yardsticks;
   plan.runs = a.runs;
   plan.first_seed = a.first_seed;
   plan.segments = a.segments;
@@ -44,6 +56,24 @@ CampaignPlan plan_of(const BenchArguments& a) {
   if (!a.shard.empty()) read_shard(a.shard, plan);
   if (auto ok = validate(plan); !ok) stop_with(kBadInput, ok.error());
   return plan;
+}
+
+namespace {
+
+/// Who asks for yardsticks wants to see some.
+void check_yardsticks(const CampaignPlan& plan) {
+  if (plan.yardsticks.empty()) return;
+  const auto jobs = all_jobs(plan);
+  const bool any = std::any_of(jobs.begin(), jobs.end(), [&](const CampaignJob& job) {
+    return !yardstick_of(plan, job).empty();
+  });
+  if (any) return;
+  const CampaignJob& first = jobs.front();
+  stop_with(kBadInput, {"--yardsticks " + plan.yardsticks.string() +
+                        ": holds none of these missions and rules; expected e.g. " +
+                        first.mission_name + "/seed_" + std::to_string(first.seed) + "/" +
+                        (first.protocol.empty() ? "own" : first.protocol) + ".json in it" +
+                        (plan.budgets_s.empty() ? "" : ", and --protocols in place of --budgets")});
 }
 
 /// Every mission with every planner must load, before hours are spent on the others.
@@ -56,6 +86,7 @@ void check_inputs(const CampaignPlan& plan, const RunRegistries& registries) {
     mission.settings = plan.settings;
     Overrides extra = {{"planner", job.contestant.planner}};
     if (!job.contestant.table.empty()) extra.emplace_back("compute_table", job.contestant.table);
+    if (!job.protocol.empty()) extra.emplace_back("protocol", job.protocol);
     if (job.budget_s) extra.emplace_back("time_per_segment_s", std::to_string(*job.budget_s));
     static_cast<void>(load(mission, extra));
   }
@@ -64,41 +95,52 @@ void check_inputs(const CampaignPlan& plan, const RunRegistries& registries) {
 /// The comparison so far; a run that cannot be read is named and left out.
 class Collected {
  public:
-  Collected(const CampaignPlan& plan, fs::path out) : plan_(plan), out_(std::move(out)) {
-    for (const auto& job : all_jobs(plan_)) {
-      if (is_done(out_, job)) add(job);
-    }
-  }
+  Collected(const CampaignPlan& plan, fs::path out)
+      : plan_(plan), out_(std::move(out)), jobs_(all_jobs(plan)), seen_(jobs_.size()) {}
 
-  void add(const CampaignJob& job) {
-    auto figures = read_run_figures(out_, job);
-    if (figures) {
-      runs_.push_back(std::move(*figures));
-    } else {
-      std::fprintf(stderr, "\ncanopeer: left out: %s\n", figures.error().message.c_str());
-    }
-  }
-
+  /// Runs that other processes make in the same folder are in it. Whoever writes last has seen all
+  /// that were there before it, so the last of several leaves the whole comparison.
   void write() {
-    // In the plan's order, whichever run was done first.
-    std::vector<RunFigures> ordered;
-    for (const auto& job : all_jobs(plan_)) {
-      const auto found = std::find_if(runs_.begin(), runs_.end(), [&](const RunFigures& run) {
-        return run.job.dir == job.dir;
-      });
-      if (found != runs_.end()) ordered.push_back(*found);
-    }
-    value_or_stop(write_comparison(out_, plan_, ordered), kFailed);
-    count_ = ordered.size();
+    look();
+    do {
+      value_or_stop(write_comparison(out_, plan_, runs()), kFailed);
+    } while (look());
   }
-  [[nodiscard]] std::size_t count() const { return count_; }
-  [[nodiscard]] Comparison comparison() const { return compare(plan_, runs_); }
+  /// In the plan's order, whichever run was done first.
+  [[nodiscard]] std::vector<RunFigures> runs() const {
+    std::vector<RunFigures> all;
+    for (const auto& run : seen_) {
+      if (run.figures) all.push_back(*run.figures);
+    }
+    return all;
+  }
+  [[nodiscard]] Comparison comparison() const { return compare(plan_, runs()); }
 
  private:
+  /// Reads the runs that have come since; false when there is none.
+  bool look() {
+    bool any = false;
+    for (std::size_t i = 0; i < jobs_.size(); ++i) {
+      if (seen_[i].there || !is_done(out_, jobs_[i])) continue;
+      seen_[i].there = any = true;
+      auto figures = read_run_figures(out_, jobs_[i], yardstick_of(plan_, jobs_[i]));
+      if (figures) {
+        seen_[i].figures = std::move(*figures);
+      } else {
+        std::fprintf(stderr, "\ncanopeer: left out: %s\n", figures.error().message.c_str());
+      }
+    }
+    return any;
+  }
+
+  struct Seen {
+    bool there = false;
+    std::optional<RunFigures> figures;
+  };
   const CampaignPlan& plan_;
   fs::path out_;
-  std::vector<RunFigures> runs_;
-  std::size_t count_ = 0;
+  std::vector<CampaignJob> jobs_;
+  std::vector<Seen> seen_;  ///< parallel to jobs_
 };
 
 std::string line_of(const CampaignProgress& p) {
@@ -122,10 +164,24 @@ void print_comparison(const Comparison& comparison, const fs::path& out) {
   std::printf("comparison  %s\n", (out / "comparison.html").c_str());
 }
 
+/// What others have made, before it is compared.
+void join(const BenchArguments& arguments, const CampaignPlan& plan) {
+  const std::vector<fs::path> parts(arguments.merge.begin(), arguments.merge.end());
+  const auto outcome = value_or_stop(merge_campaigns(plan, parts, arguments.out), kBadInput);
+  if (outcome.strangers > 0) {
+    std::fprintf(stderr, "canopeer: %d runs of other campaigns were left where they are\n",
+                 outcome.strangers);
+  }
+  if (!arguments.quiet) {
+    std::printf("merged      %d runs, %d were there already\n", outcome.taken, outcome.twice);
+  }
+}
+
 }  // namespace
 
 void bench(const BenchArguments& arguments) {
-  const CampaignPlan plan = plan_of(arguments);
+  const CampaignPlan plan = bench_plan(arguments);
+  check_yardsticks(plan);
   check_inputs(plan, *arguments.registries);
   const fs::path out = arguments.out;
   std::error_code code;
@@ -134,18 +190,16 @@ void bench(const BenchArguments& arguments) {
   Collected collected(plan, out);
   int failed = 0;
   const std::atomic<bool>& stop = catch_stop_signals();
-  if (!arguments.report_only) {
+  if (!arguments.merge.empty()) join(arguments, plan);
+  if (!arguments.report_only && arguments.merge.empty()) {
     JobPoolOptions options;
     options.program = fs::read_symlink("/proc/self/exe");
     options.out = out;
     options.processes = arguments.jobs;
     options.keep_maps = arguments.keep_maps;
-    ProgressBar bar(arguments.quiet);
+    ProgressBar bar(arguments.quiet && !arguments.progress);
     const auto show = [&](const CampaignProgress& p) {
-      if (p.changed != nullptr && p.state == JobState::done) {
-        collected.add(*p.changed);
-        collected.write();
-      }
+      if (p.changed != nullptr && p.state == JobState::done) collected.write();
       if (p.changed != nullptr && p.state == JobState::failed) {
         std::fprintf(stderr, "\ncanopeer: %s failed: %s\n", p.changed->dir.c_str(),
                      p.message.c_str());
@@ -158,6 +212,9 @@ void bench(const BenchArguments& arguments) {
     if (!outcome) stop_with(kBadInput, outcome.error());
   }
   collected.write();
+  if (plan.settings.empty() && !plan.segments) {
+    keep_improvements(out, collected.runs(), mission_record_of, arguments.quiet);
+  }
   if (!arguments.quiet) print_comparison(collected.comparison(), out);
   if (stop) {
     std::fprintf(stderr, "canopeer: interrupted; the same command goes on from here\n");

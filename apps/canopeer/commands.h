@@ -33,6 +33,8 @@ struct ViewArguments {
 struct RunArguments {
   MissionArguments mission;
   std::string planner;
+  std::string protocol;   ///< empty: what the mission says
+  std::string yardstick;  ///< file; empty: none
   std::optional<int> segments;
   std::optional<double> time_per_segment_s;
   std::string compute_table;
@@ -52,6 +54,7 @@ struct SceneArguments {
   std::string out;
   std::string json;  ///< empty: no such file
   bool counts_only = false;
+  double grid_mm = 0.1;  ///< that the vertices of a frozen scene lie on
 };
 
 struct MapFuseArguments {
@@ -95,6 +98,8 @@ struct BenchArguments {
   std::vector<std::string> missions;
   std::vector<std::string> planners = {"vmp", "vmp_released@reference", "rvp", "rvp@reference"};
   std::vector<double> budgets_s;  ///< seconds per segment; empty: the missions'
+  std::vector<std::string> protocols;
+  std::string yardsticks;  ///< folder of them; empty: none
   std::vector<std::string> settings;
   int runs = 5;
   std::uint64_t first_seed = 1;
@@ -102,9 +107,50 @@ struct BenchArguments {
   int jobs = 1;     ///< processes at a time
   int threads = 0;  ///< of each run; 0: the cores shared among the jobs
   std::string shard;
+  std::vector<std::string> merge;  ///< folders of campaigns to join into `out`
   std::string out;
   bool keep_maps = false;
   bool report_only = false;
+  bool quiet = false;
+  bool progress = false;  ///< the bar even when quiet
+};
+
+/// The suite of frozen worlds, docs/benchmark.md.
+struct SuiteArguments {
+  const RunRegistries* registries = nullptr;
+  std::vector<std::string> planners = {"vmp", "rvp", "random"};
+  std::vector<std::string> protocols = {"tight10"};
+  std::vector<std::string> worlds;  ///< only these; empty: those of the split
+  std::vector<std::string> settings;
+  std::string split = "test";
+  int seeds = 3;
+  int jobs = 1;
+  int threads = 0;
+  std::string shard;
+  std::string out;
+  std::string check;  ///< a results file to look at, in place of runs
+  bool report_only = false;
+  bool quiet = false;
+};
+
+struct VerifyArguments {
+  std::string records;  ///< folder; empty: the shipped one
+  std::string out;      ///< where the runs are kept; empty: they are not
+  int jobs = 1;
+};
+
+struct BoundArguments {
+  MissionArguments mission;
+  std::string protocol;  ///< empty: the mission's own rules
+  std::string out;
+  std::string pool;  ///< file of the sampled views; empty: views.pool in `out`
+  std::optional<int> segments;
+  std::optional<int> views_per_fruit;  ///< aimed at each fruit in range; none: the default
+  std::optional<int> most_views;       ///< a segment, at most; none: the default
+  std::optional<double> min_area_cm2;  ///< of the find rule; none: the default
+  bool pipeline = true;                ///< frames of the cover through our own fruit map
+  bool plans = true;                   ///< clairvoyant plans, executed
+  int threads = 0;                     ///< 0: all cores
   bool quiet = false;
 };
 
@@ -134,6 +180,9 @@ struct RobotCheckArguments {
 // The commands. Each ends by returning, or by throwing Stop.
 void run(const RunArguments& arguments);
 void bench(const BenchArguments& arguments);
+void bound(const BoundArguments& arguments);
+void bench_suite(const SuiteArguments& arguments);
+void verify_records(const VerifyArguments& arguments);
 void calibrate(const CalibrateArguments& arguments);
 void doctor(const DoctorArguments& arguments);
 void report(const std::string& directory);
@@ -141,6 +190,7 @@ void view(const ViewArguments& arguments);
 void scene_render(const SceneArguments& arguments);
 void scene_inspect(const SceneArguments& arguments);
 void scene_generate(const SceneArguments& arguments);
+void scene_freeze(const SceneArguments& arguments);
 void scene_import(const ImportArguments& arguments);
 void fruit_fit(const FruitFitArguments& arguments);
 void robot_check(const RobotCheckArguments& arguments);

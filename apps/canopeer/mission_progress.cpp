@@ -24,7 +24,9 @@ void MissionProgress::on_event(const Event& event) {
 }
 
 void MissionProgress::show(int segment, double t_s, std::size_t fruits) {
-  const double done = std::min(1.0, (t_s - segment_.start_s) / run_.segment_time_s);
+  // Without a time limit nobody knows.
+  const double limit_s = run_.segment_time_s;
+  const double done = limit_s > 0.0 ? std::min(1.0, (t_s - segment_.start_s) / limit_s) : 0.0;
   char frames[32] = "";
   if (frames_ > 0) std::snprintf(frames, sizeof frames, " + %d on the way", frames_);
   char text[160];

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "canopeer/config/protocols.h"
 #include "commands.h"
 #include "completion.h"
 #include "exit_status.h"
@@ -26,11 +27,21 @@ std::string comma_list(const std::vector<std::string>& names) {
   return list;
 }
 
+std::vector<std::string> protocol_names() {
+  std::vector<std::string> names;
+  for (const Protocol& protocol : protocols()) names.push_back(protocol.name);
+  return names;
+}
+
 void add_run(CLI::App& app, RunArguments& arguments, const RunRegistries& registries) {
   CLI::App* command = app.add_subcommand("run", "Run a mission and write the results");
   add_mission(*command, arguments.mission);
   command->add_option("--planner", arguments.planner,
                       "Planner: " + comma_list(registries.planners.names()));
+  command->add_option("--protocol", arguments.protocol,
+                      "Rules by name, in place of the mission's: " + comma_list(protocol_names()));
+  command->add_option("--yardstick", arguments.yardstick,
+                      "Give results as shares of this too (JSON, as `bound` writes it)");
   command->add_option("--site", arguments.site,
                       "What stands behind the ports: " + comma_list(registries.sites.names()));
   command->add_option("--segments", arguments.segments, "Only the first K segments");
@@ -58,12 +69,45 @@ void add_run(CLI::App& app, RunArguments& arguments, const RunRegistries& regist
   command->callback([&arguments] { run(arguments); });
 }
 
-void add_bench(CLI::App& app, BenchArguments& a) {
+void add_suite(CLI::App& bench, SuiteArguments& a) {
+  CLI::App* command = bench.add_subcommand(
+      "suite",
+      "Run planners on CanopeerBench, 24 frozen worlds; write one page, one file to hand in");
+  command->add_option("--planners", a.planners, "Planners, separated by commas")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_option("--split", a.split, "Which worlds: train, validation, test or all")
+      ->check(CLI::IsMember({"train", "validation", "test", "all"}))
+      ->capture_default_str();
+  command->add_option("--worlds", a.worlds, "Only these, separated by commas")->delimiter(',');
+  command->add_option("--protocols", a.protocols, "Rules of the runs, separated by commas")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_option("--seeds", a.seeds, "Runs per planner and world: seeds 1 to N")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  command->add_option("--set", a.settings, "Override a setting in all runs; such are no entries")
+      ->expected(1)
+      ->take_all();
+  command->add_option("--jobs", a.jobs, "Runs at a time, each a process")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->add_option("--threads", a.threads, "Threads of each run (0: the cores shared out)")
+      ->check(CLI::Range(0, 1024));
+  command->add_option("--shard", a.shard, "i/n: make every n-th run only, from the i-th");
+  command->add_option("--out", a.out, "Folder of the runs, the page and results.json");
+  command->add_flag("--report-only", a.report_only, "Take the runs that are there; make none");
+  command->add_flag("--quiet", a.quiet, "Print errors only");
+  command->add_option("--check", a.check,
+                      "Say whether a results.json is a valid entry; run nothing");
+  command->callback([&a] { bench_suite(a); });
+}
+
+void add_bench(CLI::App& app, BenchArguments& a, SuiteArguments& suite, VerifyArguments& verify) {
   CLI::App* command = app.add_subcommand(
       "bench",
       "Compare planners on the same worlds and seeds; the same command goes on after a kill");
-  command->add_option("missions", a.missions, "Mission files (YAML), or names of shipped ones")
-      ->required();
+  command->add_option("missions", a.missions, "Mission files (YAML), or names of shipped ones");
   command
       ->add_option("--planners", a.planners,
                    "Planners, each as NAME or NAME@COMPUTE-TABLE, separated by commas")
@@ -78,6 +122,13 @@ void add_bench(CLI::App& app, BenchArguments& a) {
                    "Seconds per segment, separated by commas; each is a run of its own")
       ->delimiter(',')
       ->check(CLI::Range(1.0, 36000.0));
+  command
+      ->add_option("--protocols,--protocol", a.protocols,
+                   "Rules by name, separated by commas, each a comparison of its own: tight, " +
+                       comma_list(protocol_names()))
+      ->delimiter(',');
+  command->add_option("--yardsticks", a.yardsticks,
+                      "Folder of yardsticks (MISSION/seed_N/PROTOCOL.json) to hold runs against");
   command->add_option("--segments", a.segments, "Only the first K segments")
       ->check(CLI::Range(1, 100000));
   command->add_option("--set", a.settings, "Override a setting in all runs (repeatable)")
@@ -88,14 +139,68 @@ void add_bench(CLI::App& app, BenchArguments& a) {
       ->capture_default_str();
   command->add_option("--threads", a.threads, "Threads of each run (0: the cores shared out)")
       ->check(CLI::Range(0, 1024));
-  command->add_option(
+  CLI::Option* shard = command->add_option(
       "--shard", a.shard,
       "i/n: make every n-th run only, from the i-th (several machines, one folder)");
-  command->add_option("--out", a.out, "Folder of the runs and the comparison")->required();
+  command
+      ->add_option("--merge", a.merge,
+                   "Join the runs of this folder, made by the same command on another machine, "
+                   "into --out; make none (repeatable)")
+      ->expected(1)
+      ->take_all()
+      ->excludes(shard);
+  command->add_option("--out", a.out, "Folder of the runs and the comparison");
   command->add_flag("--keep-maps", a.keep_maps, "Keep each run's maps and pictures");
   command->add_flag("--report-only", a.report_only, "Compare the runs that are there; make none");
   command->add_flag("--quiet", a.quiet, "Print errors only");
-  command->callback([&a] { bench(a); });
+  CLI::Option* records =
+      command->add_option("--verify-records", verify.records,
+                          "Run every best known result again and compare (default: records/)");
+  records->expected(0, 1);
+  add_suite(*command, suite);
+  command->callback([&a, &verify, command, records] {
+    if (!command->get_subcommands().empty()) return;
+    if (records->count() > 0) {
+      verify.out = a.out;
+      verify.jobs = a.jobs;
+      return verify_records(verify);
+    }
+    if (a.missions.empty()) throw CLI::RequiredError("missions");
+    if (a.out.empty()) throw CLI::RequiredError("--out");
+    bench(a);
+  });
+}
+
+void add_bound(CLI::App& app, BoundArguments& a) {
+  CLI::App* command = app.add_subcommand(
+      "bound",
+      "Say how good a run of a mission could be: what can be seen at all, the best plan of one who "
+      "knows the world, and bounds; the same command goes on after a stop");
+  add_mission(*command, a.mission);
+  command->add_option("--protocol", a.protocol, "Rules by name (default: the mission's own)");
+  command->add_option("--out", a.out, "Directory for the results")->required();
+  command->add_option("--pool", a.pool,
+                      "File of the sampled views, used again where it fits (default: views.pool in "
+                      "--out); it does not depend on the protocol");
+  command->add_option("--segments", a.segments, "Only the first K segments")
+      ->check(CLI::Range(1, 100000));
+  command
+      ->add_option("--views-per-fruit", a.views_per_fruit,
+                   "Sampled views aimed at each fruit in range, at least")
+      ->check(CLI::Range(0, 1000000));
+  command->add_option("--views-per-segment", a.most_views, "Sampled views a segment, at most")
+      ->check(CLI::Range(1, 100000000));
+  command
+      ->add_option("--find-area", a.min_area_cm2,
+                   "A fruit may count as found when so many cm2 of it have been seen")
+      ->check(CLI::Range(0.0, 1000.0));
+  command->add_flag("!--no-pipeline", a.pipeline,
+                    "Do not feed the frames of a set cover to the fruit map");
+  command->add_flag("!--no-plans", a.plans, "No plans of one who knows the world");
+  command->add_option("--threads", a.threads, "Threads at most (0: all cores)")
+      ->check(CLI::Range(0, 1024));
+  command->add_flag("--quiet", a.quiet, "Print errors only");
+  command->callback([&a] { bound(a); });
 }
 
 void add_calibrate(CLI::App& app, CalibrateArguments& a) {
@@ -181,6 +286,16 @@ void add_scene(CLI::App& app, SceneArguments& arguments, ImportArguments& import
   inspect->add_option("--json", arguments.json, "Write the same figures to this file");
   inspect->add_flag("--counts", arguments.counts_only, "Leave out how hidden the fruits are");
   inspect->callback([&arguments] { scene_inspect(arguments); });
+  CLI::App* freeze = scene->add_subcommand(
+      "freeze",
+      "Write the world as one file that stays what it is (.cscene), and its ground truth");
+  add_mission(*freeze, arguments.mission);
+  freeze->add_option("--out", arguments.out, "File to write: NAME.cscene; NAME.truth.csv beside it")
+      ->required();
+  freeze->add_option("--grid-mm", arguments.grid_mm, "Grid that vertices are put on")
+      ->check(CLI::Range(0.001, 10.0))
+      ->capture_default_str();
+  freeze->callback([&arguments] { scene_freeze(arguments); });
   add_import(*scene, import_arguments);
 }
 
@@ -326,11 +441,17 @@ int parse_and_run(int argc, char** argv, const RunRegistries& registries) {
   run_arguments.mission.registries = &registries;
   add_run(app, run_arguments, registries);
   BenchArguments bench_arguments;
+  BoundArguments bound_arguments;
   CalibrateArguments calibrate_arguments;
   bench_arguments.registries = &registries;
+  bound_arguments.mission.registries = &registries;
   calibrate_arguments.mission.registries = &registries;
   scene_arguments.mission.registries = &registries;
-  add_bench(app, bench_arguments);
+  SuiteArguments suite_arguments;
+  suite_arguments.registries = &registries;
+  VerifyArguments verify_arguments;
+  add_bench(app, bench_arguments, suite_arguments, verify_arguments);
+  add_bound(app, bound_arguments);
   add_calibrate(app, calibrate_arguments);
   add_report(app, report_directory);
   add_view(app, view_arguments);

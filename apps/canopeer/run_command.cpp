@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "canopeer/record/yardstick.h"
 #include "canopeer/run/run.h"
 #include "commands.h"
 #include "exit_status.h"
@@ -22,6 +23,7 @@ constexpr const char* kRos2 = "ros2";
 Overrides overrides_of(const RunArguments& arguments) {
   Overrides o;
   if (!arguments.planner.empty()) o.emplace_back("planner", arguments.planner);
+  if (!arguments.protocol.empty()) o.emplace_back("protocol", arguments.protocol);
   if (arguments.segments) o.emplace_back("max_segments", std::to_string(*arguments.segments));
   if (arguments.time_per_segment_s) {
     o.emplace_back("time_per_segment_s", std::to_string(*arguments.time_per_segment_s));
@@ -67,6 +69,30 @@ std::unique_ptr<Run> compose(const RunArguments& arguments, const std::atomic<bo
                        kBadInput);
 }
 
+/// A yardstick that does not fit is said before hours are spent.
+void hold_against(const std::filesystem::path& file, Run& run) {
+  auto yardstick = value_or_stop(read_yardstick(file), kBadInput);
+  if (auto ok = run.hold_against(std::move(yardstick)); !ok) {
+    stop_with(kBadInput, {file.string() + ": " + ok.error().message});
+  }
+}
+
+/// Of what could be found, where a yardstick says what that is.
+void print_shares(const Summary& s) {
+  std::string line;
+  const auto add = [&](const std::optional<double>& share, const char* what) {
+    if (!share) return;
+    char text[96];
+    std::snprintf(text, sizeof text, "%s%.1f %% %s", line.empty() ? "" : ", ", 100.0 * *share,
+                  what);
+    line += text;
+  };
+  add(s.ceiling_fruits_share, "of those that can be seen");
+  add(s.clairvoyant_found_share, "of the clairvoyant's");
+  add(s.best_found_share, "of the most known");
+  if (!line.empty()) std::printf("that is           %s\n", line.c_str());
+}
+
 /// What became of frames on the way, where they were wanted.
 void print_frames(const Summary& s) {
   if (!s.frames_fused) return;
@@ -86,6 +112,7 @@ void print_summary(const Summary& s, const std::filesystem::path& out) {
   } else {
     std::printf("fruits found      %d\n", s.fruits_reported);
   }
+  print_shares(s);
   std::printf("views             %d in %.0f s of mission time (%.1f s of wall time)\n", s.views,
               s.sim_time_s, s.wall_time_s);
   print_frames(s);
@@ -126,6 +153,7 @@ void run(const RunArguments& arguments) {
   SignalSteering signals;
   std::atomic<bool> page_stop{false};
   const std::unique_ptr<Run> run = compose(arguments, page_stop);
+  if (!arguments.yardstick.empty()) hold_against(arguments.yardstick, *run);
   SteeringTogether steering;
   steering.add(signals);
   const LiveView view(*run, steering, page_stop, arguments.view);

@@ -3,6 +3,8 @@
 #include <filesystem>
 
 #include "canopeer/base/atomic_file.h"
+#include "canopeer/base/sha256.h"
+#include "canopeer/import/frozen_scene.h"
 #include "canopeer/import/scene_glb.h"
 #include "canopeer/render/overview.h"
 #include "canopeer/render/renderer.h"
@@ -107,6 +109,25 @@ void scene_generate(const SceneArguments& arguments) {
   write_truth(out, world.scene);
   value_or_stop(write_png(out / "scene.png", render_overview(world.scene, 1280, 720)), kFailed);
   std::printf("%s\n", out.c_str());
+}
+
+/// The scene as one file that stays what it is, and its ground truth beside it.
+void scene_freeze(const SceneArguments& arguments) {
+  const SceneSource source = load_scene_source(arguments.mission);
+  const ImportedScene world = build_world_or_stop(source.world, source.seed);
+  const SceneFileOptions options{arguments.grid_mm / 1e3};
+  Scene frozen = value_or_stop(frozen_scene(world.scene, options), kFailed);
+  fs::path out = arguments.out;
+  if (out.extension() != kSceneFileEnding) out += kSceneFileEnding;
+  frozen.name = out.stem().string();
+  if (out.has_parent_path()) static_cast<void>(out_or_stop(out.parent_path().string()));
+  const std::string bytes = value_or_stop(scene_bytes(frozen, options), kFailed);
+  value_or_stop(write_file(out, bytes), kFailed);
+  value_or_stop(write_file(fs::path(out).replace_extension(".truth.csv"), ground_truth_csv(frozen)),
+                kFailed);
+  std::printf("%s  %s\n%zu bytes, %zu triangles, %zu fruits (%d count)\n",
+              sha256_hex(bytes).c_str(), out.c_str(), bytes.size(), frozen.triangle_count(),
+              frozen.fruits.size(), frozen.counted_fruits());
 }
 
 }  // namespace canopeer::app

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
+#include <thread>
 
 #include "canopeer/base/atomic_file.h"
 #include "canopeer/base/csv_table.h"
@@ -44,6 +46,55 @@ TEST(BenchCommand, ComparesPlannersAndGoesOnWhereItWas) {
   const auto other = test::canopeer(bench(out, {"--set", "graph.neighbors=4"}));
   EXPECT_EQ(other.status, 2);
   EXPECT_NE(other.err.find("another command"), std::string::npos);
+}
+
+TEST(BenchCommand, TwoShardsAtOnceLeaveTheWholeComparison) {
+  const test::TemporaryDirectory directory;
+  const fs::path out = directory / "campaign";
+  test::ProgramResult second;
+  std::thread other([&] { second = test::canopeer(bench(out, {"--shard", "2/2"})); });
+  const auto first = test::canopeer(bench(out, {"--shard", "1/2"}));
+  other.join();
+  ASSERT_EQ(first.status, 0) << first.err;
+  ASSERT_EQ(second.status, 0) << second.err;
+  EXPECT_EQ(CsvTable::read(out / "runs.csv")->rows(), 4U);
+  EXPECT_NE(read_file(out / "comparison.html").value().find("<p>4 runs."), std::string::npos);
+  for (const auto& entry : fs::recursive_directory_iterator(out)) {
+    EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+  }
+}
+
+TEST(BenchCommand, JoinsWhatTwoMachinesMade) {
+  const test::TemporaryDirectory directory;
+  const auto one = [&](const fs::path& out, std::vector<std::string> more) {
+    std::vector<std::string> words = {
+        "bench", "missions/smoke.yaml", "--planners", "vmp,random", "--runs",    "1", "--budgets",
+        "2",     "--threads",           "1",          "--out",      out.string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return test::canopeer(words);
+  };
+  const fs::path a = directory / "a";
+  const fs::path b = directory / "b";
+  const fs::path joint = directory / "joint";
+  ASSERT_EQ(one(a, {"--shard", "1/2"}).status, 0);
+  ASSERT_EQ(one(b, {"--shard", "2/2"}).status, 0);
+  const auto merged = one(joint, {"--merge", a.string(), "--merge", b.string()});
+  ASSERT_EQ(merged.status, 0) << merged.err;
+  EXPECT_NE(merged.out.find("2 runs"), std::string::npos) << merged.out;
+  EXPECT_EQ(CsvTable::read(joint / "runs.csv")->rows(), 2U);
+  EXPECT_NE(read_file(joint / "comparison.html").value().find("2 runs."), std::string::npos);
+  // Another version of the program may see something else.
+  const fs::path record = "runs/smoke/2s/vmp/seed_1/record";
+  ASSERT_TRUE(write_file(a / record, read_file(a / record).value() + "\n").has_value());
+  const auto clash = one(joint, {"--merge", a.string()});
+  EXPECT_EQ(clash.status, 2);
+  EXPECT_NE(clash.err.find("vmp/seed_1: is another run than"), std::string::npos) << clash.err;
+  // Under another command, they are others.
+  const auto refused =
+      one(directory / "other", {"--merge", a.string(), "--set", "graph.neighbors=4"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("seed_1: was made by another command"), std::string::npos);
+  EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
 }
 
 TEST(BenchCommand, RefusesWhatItCannotRunBeforeItRunsAnything) {

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
+
+#include "canopeer/base/atomic_file.h"
 
 namespace canopeer {
 namespace {
@@ -64,6 +67,49 @@ TEST(CampaignPlan, WhatMakesNoSenseIsRefused) {
   EXPECT_TRUE(refused([](CampaignPlan& p) { p.budgets_s.push_back(10); }));
   EXPECT_TRUE(refused([](CampaignPlan& p) { p.runs = 0; }));
   EXPECT_TRUE(refused([](CampaignPlan& p) { p.shard = 2; }));
+}
+
+TEST(CampaignPlan, ProtocolsTakeThePlaceOfBudgets) {
+  CampaignPlan plan = small_plan();
+  plan.protocols = {"tight10", "views10"};
+  EXPECT_NE(validate(plan).error().message.find("either them or budgets"), std::string::npos);
+  plan.budgets_s.clear();
+  ASSERT_TRUE(validate(plan).has_value());
+  const auto jobs = all_jobs(plan);
+  EXPECT_EQ(jobs.size(), 2U * 2U * 2U * 3U);
+  EXPECT_EQ(jobs.front().dir, "runs/a/tight10/vmp/seed_1");
+  EXPECT_EQ(jobs[2].dir, "runs/a/views10/vmp/seed_1");
+  const auto words = run_arguments(plan, jobs[2], "here");
+  const auto at = std::find(words.begin(), words.end(), "--protocol");
+  ASSERT_NE(at, words.end());
+  EXPECT_EQ(*(at + 1), "views10");
+  plan.protocols.emplace_back("tight10");
+  EXPECT_FALSE(validate(plan).has_value());
+}
+
+TEST(CampaignPlan, YardsticksAreOfASeedOrOfAFrozenWorld) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(testing::TempDir()) / "campaign_yardsticks";
+  fs::remove_all(folder);
+  CampaignPlan plan = small_plan();
+  plan.budgets_s.clear();
+  plan.protocols = {"tight10"};
+  plan.yardsticks = folder;
+  const CampaignJob job = all_jobs(plan).front();
+  EXPECT_TRUE(yardstick_of(plan, job).empty());
+  const auto put = [&](const fs::path& path) {
+    fs::create_directories(path.parent_path());
+    ASSERT_TRUE(write_file(path, "{}"));
+  };
+  put(folder / "a/tight10.json");
+  EXPECT_EQ(yardstick_of(plan, job), folder / "a/tight10.json");
+  put(folder / "a/seed_1/tight10.json");
+  EXPECT_EQ(yardstick_of(plan, job), folder / "a/seed_1/tight10.json");
+  put(folder / "a/own.json");
+  plan.protocols.clear();
+  EXPECT_EQ(yardstick_of(plan, all_jobs(plan).front()), folder / "a/own.json");
+  plan.budgets_s = {10};
+  EXPECT_TRUE(yardstick_of(plan, all_jobs(plan).front()).empty());
 }
 
 TEST(CampaignPlan, ARunIsTheCommandAUserWouldType) {

@@ -9,6 +9,7 @@
 #include "canopeer/base/csv_table.h"
 #include "canopeer/campaign/comparison_report.h"
 #include "canopeer/campaign/comparison_tables.h"
+#include "canopeer/record/yardstick_shares.h"
 
 namespace canopeer {
 namespace {
@@ -85,6 +86,32 @@ TEST(Comparison, UsesWhatIsThereOfACampaignThatIsNotDone) {
   EXPECT_FALSE(pair.p_wilcoxon.has_value());
 }
 
+TEST(Comparison, IsByProtocolAndLeavesOutWhatNobodyHas) {
+  Made made;
+  made.plan.missions = {"scenario_1.yaml"};
+  made.plan.contestants = {{"vmp", ""}, {"rvp", ""}};
+  made.plan.protocols = {"tight10", "views10"};
+  made.plan.runs = 3;
+  for (const auto& job : all_jobs(made.plan)) {
+    made.runs.push_back(made_up_run(job, job.protocol == "tight10" ? 20 : 30));
+    if (job.protocol == "views10") made.runs.back().values[figure_index("auc_views")] = 0.5;
+  }
+  const Comparison comparison = compare(made.plan, made.runs);
+  ASSERT_EQ(comparison.matches.size(), 2U);
+  EXPECT_EQ(comparison.matches[0].title(), "scenario_1, protocol tight10");
+  const std::size_t found = figure_index("detected_paper");
+  EXPECT_EQ(comparison.matches[0].contestants[0].figures[found].mean, 20.0);
+  EXPECT_EQ(comparison.matches[1].contestants[0].figures[found].mean, 30.0);
+  const std::size_t views = figure_index("auc_views");
+  EXPECT_FALSE(comparison.matches[0].anybody_has(views));
+  EXPECT_TRUE(comparison.matches[1].anybody_has(views));
+  const std::string markdown = comparison_markdown(comparison);
+  EXPECT_NE(markdown.find("## scenario_1, protocol views10"), std::string::npos);
+  EXPECT_EQ(markdown.find("clairvoyant"), std::string::npos);
+  EXPECT_NE(runs_csv(made.runs).find(",views10\n"), std::string::npos);
+  EXPECT_NE(comparison_csv(comparison).find(",tight10\n"), std::string::npos);
+}
+
 /// Two segments with a transition between them, a view in each, a frame on the way between.
 RunFiles made_up_files(double mission_time_s) {
   RunFiles files;
@@ -132,6 +159,19 @@ TEST(RunFigures, CountOverTheMissionsClock) {
   EXPECT_EQ(run.values[figure_index("frames_late")], 2.0);
   EXPECT_EQ(run.values[figure_index("frames_blurred")], 3.0);
   EXPECT_EQ(run.values[figure_index("still_share")], 0.2);
+}
+
+TEST(RunFigures, AreHeldAgainstAYardstick) {
+  RunFiles files = made_up_files(30.0);
+  files.summary.detected = 2;
+  files.summary.time = TimeSplit{1.0, 2.0, 3.0, 4.0, 5.0};
+  Yardstick yardstick;
+  yardstick.ceiling_fruits = 4;
+  hold_against(yardstick, files.summary);
+  const RunFigures run = run_figures({}, files);
+  EXPECT_EQ(run.values[figure_index("ceiling_fruits_share")], 0.5);
+  EXPECT_FALSE(run.values[figure_index("best_found_share")].has_value());
+  EXPECT_EQ(run.values[figure_index("time_transitions_s")], 5.0);
 }
 
 TEST(RunFigures, LeaveTransitionsOutByThePapersClock) {

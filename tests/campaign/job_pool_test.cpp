@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <thread>
 
 #include "canopeer/base/atomic_file.h"
 
@@ -98,6 +99,78 @@ TEST_F(JobPoolTest, ARunCutShortLeavesNothingThatCountsAsDone) {
   ASSERT_TRUE(run().has_value());
   EXPECT_EQ(read_file(options_.out / job.dir / "summary.json").value(), "made\n");
   EXPECT_FALSE(fs::exists(part));
+}
+
+/// Two pools at once, each with a progress of its own: two processes in the same folder.
+void run_both(const CampaignPlan& one, const CampaignPlan& other, const JobPoolOptions& options,
+              CampaignProgress& of_one, CampaignProgress& of_other) {
+  const std::atomic<bool> stop{false};
+  const auto make = [&](const CampaignPlan& plan, CampaignProgress& last) {
+    const auto ok = run_jobs(plan, options, stop, [&](const CampaignProgress& p) { last = p; });
+    EXPECT_TRUE(ok.has_value()) << ok.error().message;
+  };
+  std::thread second([&] { make(other, of_other); });
+  make(one, of_one);
+  second.join();
+}
+
+TEST_F(JobPoolTest, ShardsInOneFolderShareNothing) {
+  plan_.runs = 6;
+  program("echo $planner$seed > \"$out/summary.json\"");
+  CampaignPlan other = plan_;
+  plan_.shards = other.shards = 2;
+  other.shard = 2;
+  CampaignProgress one;
+  CampaignProgress two;
+  run_both(plan_, other, options_, one, two);
+  EXPECT_EQ(one.done + two.done, 12);
+  EXPECT_EQ(starts(), 12);
+  for (const auto& job : all_jobs(plan_)) {
+    EXPECT_EQ(read_file(options_.out / job.dir / "summary.json").value(),
+              job.contestant.planner + std::to_string(job.seed) + "\n");
+  }
+}
+
+TEST_F(JobPoolTest, OfTwoThatMakeTheSameRunTheFirstCountsAndNeitherFails) {
+  // Both begin every run before either ends it: each writes, waits for the other, writes again.
+  program(
+      "echo begun > \"$out/summary.json\"; touch \"$out/../here.$$\"; i=0; while [ $i -lt 200 ] && "
+      "[ $(ls -d \"$out\"/../here.* | wc -l) -lt 2 ]; do i=$((i + 1)); sleep 0.01; done; echo "
+      "whole "
+      "> \"$out/summary.json\"");
+  options_.processes = 1;
+  CampaignProgress one;
+  CampaignProgress two;
+  run_both(plan_, plan_, options_, one, two);
+  for (const auto& progress : {one, two}) {
+    EXPECT_EQ(progress.done, 4);
+    EXPECT_EQ(progress.failed, 0);
+  }
+  EXPECT_GT(starts(), 4);
+  for (const auto& job : all_jobs(plan_)) {
+    const fs::path dir = options_.out / job.dir;
+    EXPECT_EQ(read_file(dir / "summary.json").value(), "whole\n");
+    for (const auto& entry : fs::directory_iterator(dir.parent_path())) {
+      EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+    }
+  }
+}
+
+TEST_F(JobPoolTest, AnotherShardOfAnotherCommandIsNotMixedIn) {
+  plan_.shards = 2;
+  ASSERT_TRUE(run().has_value());
+  plan_.shard = 2;
+  plan_.settings = {"graph.neighbors=4"};
+  EXPECT_FALSE(run().has_value());
+}
+
+TEST_F(JobPoolTest, TheMissionFileMayLieElsewhereOnAnotherMachine) {
+  ASSERT_TRUE(run().has_value());
+  fs::create_directories(root_ / "other");
+  fs::copy_file(root_ / "m.yaml", root_ / "other/m.yaml");
+  plan_.missions = {root_ / "other/m.yaml"};
+  ASSERT_TRUE(run().has_value());
+  EXPECT_EQ(starts(), 4);
 }
 
 TEST_F(JobPoolTest, AFailedRunIsReportedAndTheOthersGoOn) {

@@ -44,6 +44,7 @@ TEST(CostTableFile, MayLeaveOutWhatEarlierVersionsDidNotCharge) {
   const auto old = table_of(without(text, Work::fruit_frame));
   ASSERT_TRUE(old) << old.error().message;
   EXPECT_EQ((*old)[Work::fruit_frame], 0.0);
+  EXPECT_TRUE(table_of(without(text, Work::simplex_row)));
   const auto damaged = table_of(without(text, Work::view_cast));
   ASSERT_FALSE(damaged);
   EXPECT_NE(damaged.error().message.find("view_cast"), std::string::npos);

@@ -41,6 +41,45 @@ TEST(PlannerSections, OfTheScansAreReadEachForItself) {
   EXPECT_EQ(o.drive_by.overrun_m, 0.25);
 }
 
+TEST(PlannerSections, PathsOfPlansBeginAtTheMissionFile) {
+  const auto beside = mission_of("playback: {plan: plans/best.json}\n");
+  ASSERT_TRUE(beside) << beside.error().message;
+  EXPECT_EQ(beside->mission.planners.playback.plan,
+            fs::temp_directory_path() / "plans" / "best.json");
+  const auto elsewhere = mission_of("playback: {plan: /plans/best.json}\n");
+  ASSERT_TRUE(elsewhere) << elsewhere.error().message;
+  EXPECT_EQ(elsewhere->mission.planners.playback.plan, "/plans/best.json");
+}
+
+TEST(PlannerSections, OfTheInspectionPlannersIsRead) {
+  const auto file = mission_of(
+      "planner: gomvp_t\n"
+      "gomvp: {max_targets: 50, target_grid_m: 0.03, max_candidates: 200, max_views: 20, "
+      "neighbors: 5, max_nodes: 0, max_iterations: 7, replan_share: 0.5, give_up_after: 3, "
+      "roi_weight: 3, occupied_weight: 1.5, border_weight: 0.5, roi_share: 0.6, "
+      "occupied_share: 0.4, border_share: 0}\n");
+  ASSERT_TRUE(file) << file.error().message;
+  const GomvpOptions& o = file->mission.planners.gomvp;
+  EXPECT_EQ(o.max_targets, 50);
+  EXPECT_EQ(o.target_grid_m, 0.03);
+  EXPECT_EQ(o.max_candidates, 200);
+  EXPECT_EQ(o.max_views, 20);
+  EXPECT_EQ(o.neighbors, 5);
+  EXPECT_EQ(o.max_nodes, 0);
+  EXPECT_EQ(o.max_iterations, 7);
+  EXPECT_EQ(o.replan_share, 0.5);
+  EXPECT_EQ(o.give_up_after, 3);
+  EXPECT_EQ(o.roi_weight, 3.0);
+  EXPECT_EQ(o.occupied_weight, 1.5);
+  EXPECT_EQ(o.border_weight, 0.5);
+  EXPECT_EQ(o.shares.roi, 0.6);
+  EXPECT_EQ(o.shares.border, 0.0);
+  const auto shares = mission_of("gomvp: {roi_share: 0.9}\n");
+  ASSERT_FALSE(shares);
+  EXPECT_NE(shares.error().message.find("must sum to 1"), std::string::npos);
+  EXPECT_FALSE(mission_of("gomvp: {max_views: 1001}\n"));
+}
+
 TEST(PlannerSections, ErrorsSayWhatWasExpected) {
   const auto poses = mission_of("drive_by: {poses: 4}\n");
   ASSERT_FALSE(poses);

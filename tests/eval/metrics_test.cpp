@@ -76,6 +76,44 @@ TEST(Metrics, OfAHandMadeRunAreAsWorkedOutByHand) {
   EXPECT_FALSE(m.roi_surface_coverage.has_value());
 }
 
+TEST(Metrics, OfCountAndVolumeSayWhatTheyAreOver) {
+  const std::vector<FruitEstimate> fruits = {
+      estimate_at({0, 0, 0.5}, 110.0), estimate_at({1, 0, 0.54}, 40.0),
+      estimate_at({4, 0, 0.5}, 50.0),  // of a green fruit: neither right nor wrong
+      estimate_at({9, 0, 0.5}, 100.0)};
+  const RunMetrics m = compute_metrics(run(), fruits, four_fruits());
+  EXPECT_NEAR(m.count_accuracy_pct.value(), 75.0, 1e-12);  // three of four, whichever they are
+  EXPECT_NEAR(m.volume_ratio_pct.value(), 100.0 * (110.0 + 40.0) / 200.0, 1e-12);
+  const RunMetrics blind = compute_metrics(run(), {}, four_fruits());
+  EXPECT_NEAR(blind.count_accuracy_pct.value(), 0.0, 1e-12);
+  EXPECT_FALSE(blind.volume_ratio_pct.has_value());
+  EXPECT_FALSE(compute_metrics(run(), fruits, {}).count_accuracy_pct.has_value());
+}
+
+TEST(Metrics, WithoutATimeLimitAreOverViews) {
+  RunRecord record = run();  // sees 0, 1, 2, 2 fruits within 0.05 m
+  record.header.segment_time_s = 0.0;
+  record.header.segments = 2;
+  record.header.views_planned = 6;
+  record.segments.resize(2);
+  record.segments[0].end_s = 3.0;
+  record.segments[1] = record.segments[0];
+  record.segments[1].segment = 1;
+  record.segments[1].start_s = 3.5;
+  record.segments[1].end_s = 9.0;
+  record.views[2].segment = record.views[3].segment = 1;
+  const RunMetrics m = compute_metrics(record, {}, four_fruits());
+  EXPECT_FALSE(m.auc.has_value());
+  // Views 0, 1 and one not taken; views 2, 2 and one not taken.
+  EXPECT_NEAR(m.auc_views.value(), (0 + 1 + 1 + 2 + 2 + 2) / (6.0 * 4.0), 1e-12);
+  record.segments.resize(1);  // ended early: what is not begun keeps the last count
+  record.views.resize(2);
+  EXPECT_NEAR(compute_metrics(record, {}, four_fruits()).auc_views.value(),
+              (0 + 1 + 1 + 3 * 1) / (6.0 * 4.0), 1e-12);
+  record.header.views_planned = 0;
+  EXPECT_FALSE(compute_metrics(record, {}, four_fruits()).auc_views.has_value());
+}
+
 TEST(Metrics, OfWhatWasSeenWeighFruitsByTheirSurfaceAndClipShares) {
   std::vector<FruitTruth> truth = four_fruits();
   for (int i = 0; i < 5; ++i) truth[i].surface_cm2 = i == 0 ? 300.0 : 100.0;

@@ -41,6 +41,14 @@ TEST(RowSegments, StopsComeOnceByLiftAndAlongTheRow) {
   EXPECT_EQ(sides[0].time_s, 50.0);
 }
 
+TEST(RowSegments, TheViewsOfAllOfThemAreItsViews) {
+  const auto sides = segments_along_row({stop(0, 0, 1), stop(1, 0, 1), stop(0, 0, 2)}, 0.0, 10);
+  ASSERT_EQ(sides.size(), 2U);
+  EXPECT_EQ(sides[0].max_views, 20);
+  EXPECT_EQ(sides[1].max_views, 10);
+  EXPECT_EQ(sides[0].time_s, 0.0);
+}
+
 TEST(RowSegments, OfNothingThereAreNone) { EXPECT_TRUE(segments_along_row({}, 10.0).empty()); }
 
 }  // namespace

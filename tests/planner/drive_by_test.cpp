@@ -125,7 +125,7 @@ TEST_F(DriveByTest, StopsToLookWhereNoFramesComeOnTheWay) {
 TEST_F(DriveByTest, DrivesToAndFroWithEachPoseAtEachLift) {
   begin(options(2, 0.0, 0.25));
   const auto steps = until_it_rests();
-  EXPECT_EQ(steps.back().decision.action, Decision::Action::wait);
+  EXPECT_EQ(steps.back().decision.action, Decision::Action::done);
   // Beyond the first stop, all along, and back; up; the same there.
   const std::vector<TrolleyState> wanted = {{0.75, 0},   {2.75, 0},   {0.75, 0},
                                             {0.75, 0.5}, {2.75, 0.5}, {0.75, 0.5}};
@@ -231,7 +231,7 @@ TEST_F(DriveByTest, AtASingleStopItOnlyTakesItsPoses) {
   const auto steps = until_it_rests();
   EXPECT_TRUE(drives(steps).empty());
   EXPECT_EQ(steps.size(), 3U);
-  EXPECT_EQ(steps.back().decision.action, Decision::Action::wait);
+  EXPECT_EQ(steps.back().decision.action, Decision::Action::done);
 }
 
 }  // namespace

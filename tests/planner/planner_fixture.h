@@ -2,12 +2,33 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <memory>
 
+#include "canopeer/base/rng.h"
 #include "canopeer/planner/registry.h"
 #include "support/planning_fixture.h"
 
 namespace canopeer::test {
+
+/// What every built-in planner can be made with: those that need a file get one, in the directory
+/// for temporary files.
+inline PlannerOptions options_for_all() {
+  const RobotModel& robot = test_robot();
+  Rng rng(1, "views around home");
+  ViewPlan plan;
+  plan.segments.emplace_back();
+  for (int view = 0; view < 12; ++view) {
+    Configuration q = robot.home("side_1");
+    for (Eigen::Index joint = 0; joint < q.size(); ++joint) q[joint] += rng.uniform(-0.05, 0.05);
+    plan.segments[0].push_back(q);
+  }
+  PlannerOptions options;
+  options.playback.plan =
+      std::filesystem::temp_directory_path() / "canopeer_views_around_home.json";
+  EXPECT_TRUE(write_view_plan(options.playback.plan, plan).has_value());
+  return options;
+}
 
 /// A planner in a segment that has just begun: the shipped robot in front of Scenario 1.
 class PlannerFixture {

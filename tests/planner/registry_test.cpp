@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "planner_fixture.h"
+
 namespace canopeer {
 namespace {
 
@@ -31,7 +33,7 @@ PlannerRegistry with_sleeper() {
 TEST(PlannerRegistry, MakesEveryPlannerItListsAndSaysALineAboutIt) {
   const PlannerRegistry planners = PlannerRegistry::built_in();
   for (const auto& name : planners.names()) {
-    EXPECT_TRUE(planners.make(name, {}).has_value()) << name;
+    EXPECT_TRUE(planners.make(name, test::options_for_all()).has_value()) << name;
     EXPECT_FALSE(planners.one_line(name).empty()) << name;
   }
 }

@@ -13,7 +13,7 @@ namespace {
 class EveryPlanner : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EveryPlanner, LeadsFromWhereTheArmIsAlongFreeMotionsToViewsOfTheWorkspace) {
-  test::PlannerFixture run(GetParam(), {});
+  test::PlannerFixture run(GetParam(), test::options_for_all());
   const Box& workspace = run.world.frame.workspace_base;
   const Box grown(workspace.min() - Vec3::Constant(1e-6), workspace.max() + Vec3::Constant(1e-6));
   for (int i = 0; i < 10; ++i) {
@@ -26,12 +26,15 @@ TEST_P(EveryPlanner, LeadsFromWhereTheArmIsAlongFreeMotionsToViewsOfTheWorkspace
     EXPECT_TRUE((run.world.frame.T_world_base * run.world.robot.T_base_camera(way.back()))
                     .isApprox(run.last.motion.T_world_camera, 1e-6));
   }
-  EXPECT_GT(run.work.seconds(run.costs), 0.0);
+  // Who plays a plan back has nothing to reckon.
+  if (GetParam() != "playback") {
+    EXPECT_GT(run.work.seconds(run.costs), 0.0);
+  }
 }
 
 TEST_P(EveryPlanner, GivesTheSameViewsForTheSameSeed) {
-  test::PlannerFixture a(GetParam(), {});
-  test::PlannerFixture b(GetParam(), {});
+  test::PlannerFixture a(GetParam(), test::options_for_all());
+  test::PlannerFixture b(GetParam(), test::options_for_all());
   for (int i = 0; i < 4; ++i) {
     ASSERT_EQ(a.take_view(), b.take_view());
     ASSERT_EQ(a.q, b.q);
@@ -105,6 +108,29 @@ TEST(RvpPlanner, WithoutFrontiersItIsStuckAfterItsPatience) {
   EXPECT_EQ(run.planner->decide(run.q, run.work).action, Decision::Action::stuck);
 }
 
+TEST(NbvPlanner, AsLongAsNoFruitIsKnownItTakesTheViewsOfMostUnknownVoxels) {
+  PlannerOptions by_fruit;
+  by_fruit.nbv.gain = NbvGain::uvpc;
+  PlannerOptions by_count;
+  by_count.nbv.gain = NbvGain::uvc;
+  // A map without fruit: one that was never told of any.
+  const auto decide = [](const PlannerOptions& options) {
+    test::PlannerFixture run("nbv", options);
+    const VoxelMap empty;
+    PlanningScene scene = run.scene();
+    scene.map = &empty;
+    run.planner->begin_segment(scene);
+    run.planner->map_changed(run.world.home.change);
+    return run.planner->decide(run.q, run.work);
+  };
+  const Decision a = decide(by_fruit);
+  const Decision b = decide(by_count);
+  ASSERT_EQ(a.action, Decision::Action::move);
+  EXPECT_EQ(a.motion.waypoints, b.motion.waypoints);
+  EXPECT_FALSE(a.motion.predicted_gain.has_value());
+  EXPECT_GT(b.motion.predicted_gain.value(), 0);
+}
+
 TEST(Serpentine, GoesLineByLineOverThePlaneFacingTheRow) {
   const Box workspace(Vec3(-0.95, -0.19, 0.01), Vec3(1.0, 0.6, 1.17));
   const Box region(Vec3(-0.47, 0.6, -0.3), Vec3(1.2, 1.3, 0.8));
@@ -147,7 +173,7 @@ TEST(CoveragePlanner, TakesEachViewOfItsScanOnceAndWaitsAtTheEnd) {
     decision = run.planner->decide(decision.motion.waypoints.back(), run.work);
   }
   EXPECT_GT(views, scan / 4);
-  EXPECT_EQ(decision.action, Decision::Action::wait);
+  EXPECT_EQ(decision.action, Decision::Action::done);
 }
 
 TEST(VmpReleased, StandsStillForFiveSecondsBeforeASearch) {

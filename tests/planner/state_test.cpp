@@ -25,9 +25,23 @@ struct Kind {
 
 std::vector<Kind> every_kind() {
   std::vector<Kind> kinds;
-  for (const auto& name : PlannerRegistry::built_in().names()) kinds.push_back({name, name, {}});
+  for (const auto& name : PlannerRegistry::built_in().names()) {
+    kinds.push_back({name, name, test::options_for_all()});
+    // Integer programs that are solved in a moment.
+    kinds.back().options.gomvp.max_views = 15;
+    kinds.back().options.gomvp.neighbors = 5;
+  }
   kinds.push_back({"random_walk", "vmp", {}});
   kinds.back().options.vmp.search = VmpOptions::Search::random_walk;
+  kinds.push_back({"nbs_follows", "nbs", {}});
+  kinds.back().options.nbs.replan_every_view = false;
+  for (const auto& [label, gain] :
+       {std::pair("uvc", NbvGain::uvc), std::pair("uvpc", NbvGain::uvpc),
+        std::pair("oae", NbvGain::oae)}) {
+    kinds.push_back({std::string("nbv_") + label, "nbv", {}});
+    kinds.back().options.nbv.gain = gain;
+    kinds.back().options.nbv.views = 15;
+  }
   // A graph that makes room, and paths that are given up when they are old.
   kinds.push_back({"small_graph", "vmp", {}});
   kinds.back().options.vmp.builder.max_nodes = 150;

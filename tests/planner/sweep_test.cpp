@@ -35,7 +35,7 @@ TEST(SweepPlanner, GoesThroughThePointsOfTheScanWithoutStops) {
     run.q = way.back();
     decision = run.planner->decide(run.q, run.work);
   }
-  EXPECT_EQ(decision.action, Decision::Action::wait);
+  EXPECT_EQ(decision.action, Decision::Action::done);
   EXPECT_GT(points, static_cast<int>(scan.size()) / 3);
   EXPECT_LT(2 * stretches, points) << "several points a motion";
 }

@@ -82,6 +82,36 @@ std::vector<ViewEvent> write_some_run(const std::filesystem::path& dir) {
   return views;
 }
 
+TEST(RecordFile, ReadsBackRulesGainsPathsAndTimes) {
+  const auto dir = fresh_directory("rules");
+  RunHeader header = some_header();
+  header.protocol = "views10";
+  header.views_planned = 20;
+  header.segment_time_s = 0.0;
+  auto writer = RecordWriter::create(dir, header);
+  ASSERT_TRUE(writer.has_value());
+  Rng rng(3);
+  ViewEvent view = random_view(rng, 0);
+  view.realised_in_fan = 1234;
+  ASSERT_TRUE(writer->add(view));
+  MotionEvent motion;
+  motion.kind = "view";
+  motion.camera_path_m = 1.0 / 3.0;
+  ASSERT_TRUE(writer->add(motion));
+  ASSERT_TRUE(writer->set_time({1.0, 2.0, 0.1, 4.0, 5.0}));
+  ASSERT_TRUE(writer->finish(12.1, false));
+  const Expected<RunRecord> record = read_record(dir);
+  ASSERT_TRUE(record.has_value()) << record.error().message;
+  EXPECT_EQ(record->header.protocol, "views10");
+  EXPECT_EQ(record->header.views_planned, 20);
+  EXPECT_TRUE(record->header.without_time_limit());
+  EXPECT_EQ(record->views.at(0).realised_in_fan, 1234);
+  EXPECT_EQ(record->motions.at(0).camera_path_m, 1.0 / 3.0);
+  ASSERT_TRUE(record->time.has_value());
+  EXPECT_EQ(record->time->execution_s, 0.1);
+  EXPECT_EQ(record->time->transitions_s, 5.0);
+}
+
 TEST(RecordFile, ReadsBackEveryEventExactly) {
   const auto dir = fresh_directory("exact");
   const std::vector<ViewEvent> views = write_some_run(dir);

@@ -31,6 +31,46 @@ TEST(Summary, ReadsBackWhatItWroteAndKeepsUnknownFiguresNull) {
   EXPECT_NE(summary_json(summary).find("\"roi_surface_coverage\": null"), std::string::npos);
 }
 
+TEST(Summary, KeepsRulesTimesAndShares) {
+  Summary summary;
+  summary.protocol = "views10";
+  summary.auc_views = 1.0 / 3.0;
+  summary.time = TimeSplit{1.0, 2.5, 1.0 / 7.0, 0.0, 4.0};
+  summary.certified_auc_gap = 0.25;
+  const auto path = std::filesystem::path(testing::TempDir()) / "summary_rules.json";
+  ASSERT_TRUE(write_summary(path, summary));
+  const Expected<Summary> read = read_summary(path);
+  ASSERT_TRUE(read.has_value()) << read.error().message;
+  EXPECT_EQ(summary_json(*read), summary_json(summary));
+  EXPECT_EQ(read->protocol, "views10");
+  EXPECT_EQ(read->time->execution_s, 1.0 / 7.0);
+  EXPECT_FALSE(read->ceiling_fruits_share.has_value());
+}
+
+TEST(Summary, ComparesGainsOverTheSameSpace) {
+  RunRecord record;
+  for (int i = 0; i < 5; ++i) {
+    ViewEvent view;
+    view.predicted_gain = 10.0 * i;
+    view.realised_gain = 100 - i;  // what it saw elsewhere says the opposite
+    view.realised_in_fan = i * i;
+    record.views.push_back(view);
+  }
+  record.views.emplace_back();  // nothing was predicted
+  EXPECT_DOUBLE_EQ(summary_of(record).gain_correlation_same_space.value(), 1.0);
+  record.views.resize(2);
+  EXPECT_FALSE(summary_of(record).gain_correlation_same_space.has_value());
+}
+
+TEST(Summary, AddsUpTheCamerasPath) {
+  RunRecord record;
+  record.motions.resize(3);
+  EXPECT_FALSE(summary_of(record).camera_path_length_m.has_value());
+  record.motions[0].camera_path_m = 0.5;
+  record.motions[2].camera_path_m = 1.25;
+  EXPECT_DOUBLE_EQ(summary_of(record).camera_path_length_m.value(), 1.75);
+}
+
 TEST(Summary, ErrorsNameFileAndKey) {
   const auto path = std::filesystem::path(testing::TempDir()) / "summary_bad.json";
   ASSERT_TRUE(write_file(path, "{\"canopeer_version\": 3}"));

@@ -90,7 +90,8 @@ TEST_P(RunStateTest, CutAnywhereItGoesOnInANewProcessWithTheSameBytes) {
 
 INSTANTIATE_TEST_SUITE_P(EveryPlanner, RunStateTest,
                          ::testing::Values("vmp", "rvp", "random", "coverage", "vmp_released",
-                                           "vmp_on_the_way", "drive_by_on_the_way"),
+                                           "nbs", "nbv", "vmp_true", "vmp_on_the_way",
+                                           "drive_by_on_the_way"),
                          [](const auto& param) { return param.param; });
 
 /// A short run up to some step, in this process.

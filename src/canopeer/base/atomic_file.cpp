@@ -1,11 +1,25 @@
 #include "canopeer/base/atomic_file.h"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <random>
+#include <string>
 #include <system_error>
 
 namespace canopeer {
+namespace {
+
+/// Of a temporary name. Two processes, on two machines with a shared folder perhaps, may write the
+/// same file at the same time: each whole, the later one stays.
+std::string own_ending() {
+  char text[16];
+  std::snprintf(text, sizeof text, ".%08x.part", std::random_device()());
+  return text;
+}
+
+}  // namespace
 
 Expected<void> write_file(const std::filesystem::path& path, std::string_view content) {
   return write_file(path, std::span<const std::string_view>(&content, 1));
@@ -13,7 +27,7 @@ Expected<void> write_file(const std::filesystem::path& path, std::string_view co
 
 Expected<void> write_file(const std::filesystem::path& path,
                           std::span<const std::string_view> pieces) {
-  const std::filesystem::path temporary = path.string() + ".part";
+  const std::filesystem::path temporary = path.string() + own_ending();
   std::error_code code;
   {
     std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
@@ -25,7 +39,7 @@ Expected<void> write_file(const std::filesystem::path& path,
       const std::string reason = std::strerror(errno);
       out.close();
       std::filesystem::remove(temporary, code);
-      return fail(temporary.string() + ": cannot write: " + reason);
+      return fail(path.string() + ": cannot write: " + reason);
     }
   }
   std::filesystem::rename(temporary, path, code);

@@ -8,7 +8,7 @@ std::string_view work_name(Work kind) {
   static constexpr std::array<std::string_view, kWorkKinds> kNames = {
       "detect_frame", "fuse_point",  "field_block",     "target_block", "candidate",
       "view_ik",      "state_check", "neighbor_search", "view_cast",    "expansion",
-      "exact_state",  "motion_plan", "fruit_frame"};
+      "exact_state",  "motion_plan", "fruit_frame",     "simplex_row"};
   CANOPEER_CHECK(kind < Work::count, "unknown kind of work");
   return kNames[static_cast<std::size_t>(kind)];
 }

@@ -22,6 +22,7 @@ enum class Work : std::size_t {
   exact_state,      ///< one arm configuration judged on the exact geometry
   motion_plan,      ///< one state checked by the global motion planner
   fruit_frame,      ///< one frame taken into the fruit map
+  simplex_row,      ///< one row of an integer program in one iteration of the simplex
   count
 };
 

@@ -1,10 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
+#include <string>
 #include <vector>
 
-#include "canopeer/base/expected.h"
 #include "canopeer/geometry/pose.h"
 #include "canopeer/robot/robot_model.h"
 
@@ -12,7 +11,7 @@ namespace canopeer {
 
 /// The surfaces of the counted fruits, cut into patches of about the same size.
 struct FruitPatches {
-  double patch_m = 0.01;        ///< side of the cubes that cut them
+  double patch_m = 0.01;        ///< side of a square as large as a patch, about
   std::vector<int> fruit;       ///< by patch: FruitTruth::id
   std::vector<float> area_cm2;  ///< by patch
   int fruits_total = 0;         ///< counted ones
@@ -37,6 +36,21 @@ struct PoolView {
   }
 };
 
+/// How far the sampling of a segment was after a batch.
+struct PoolCourse {
+  int segment = 0;
+  std::int64_t sampled = 0;     ///< free configurations of this segment so far
+  int fruits = 0;               ///< of which a patch or more was seen there
+  std::uint32_t patches = 0;    ///< seen there
+  std::uint32_t seen_once = 0;  ///< of these: by one sample only
+  double area_cm2 = 0.0;        ///< of the patches seen there
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(segment, sampled, fruits, patches, seen_once, area_cm2);
+  }
+};
+
 /// Which patches of which fruits can be seen from where, segment by segment: what all ceilings,
 /// plans and bounds of a mission are made from.
 struct ViewPool {
@@ -45,17 +59,21 @@ struct ViewPool {
   /// left out.
   std::vector<std::vector<PoolView>> segments;
   std::int64_t sampled = 0;  ///< free configurations looked at, those left out included
+  /// By patch: how many of them show it.
+  std::vector<std::uint32_t> times_seen;
+  std::vector<PoolCourse> course;  ///< by segment and batch
+  std::string key;                 ///< of world, segments, camera and options; see pool_key()
 
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(patches, segments, sampled);
+    archive(patches, segments, sampled, times_seen, course, key);
   }
 };
 
 /// When a fruit counts as one that its seen patches let be found: so much of its surface was seen,
 /// at least. Smaller pieces the fruit map does not report.
 struct FindRule {
-  double min_area_cm2 = 2.0;
+  double min_area_cm2 = 5.0;  ///< what bounds go by; plans go by more (decision 111)
 };
 
 }  // namespace canopeer

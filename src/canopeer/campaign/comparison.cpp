@@ -38,11 +38,11 @@ PairedComparison pair_up(const ContestantRuns& first, const ContestantRuns& othe
 }
 
 std::vector<RunFigures> select(const std::vector<RunFigures>& runs, const std::string& mission,
-                               const std::optional<double>& budget, const std::string& label) {
+                               const CampaignRules& rules, const std::string& label) {
   std::vector<RunFigures> selected;
   std::copy_if(runs.begin(), runs.end(), std::back_inserter(selected), [&](const RunFigures& r) {
-    return r.job.mission_name == mission && r.job.budget_s == budget &&
-           r.job.contestant.label() == label;
+    return r.job.mission_name == mission && r.job.budget_s == rules.budget_s &&
+           r.job.protocol == rules.protocol && r.job.contestant.label() == label;
   });
   std::stable_sort(selected.begin(), selected.end(), [](const RunFigures& a, const RunFigures& b) {
     return a.job.seed < b.job.seed;
@@ -53,23 +53,28 @@ std::vector<RunFigures> select(const std::vector<RunFigures>& runs, const std::s
 }  // namespace
 
 std::string Match::title() const {
+  if (!protocol.empty()) return fmt::format("{}, protocol {}", mission, protocol);
   return budget_s ? fmt::format("{}, {:g} s per segment", mission, *budget_s) : mission;
+}
+
+bool Match::anybody_has(std::size_t figure) const {
+  return std::any_of(contestants.begin(), contestants.end(),
+                     [&](const ContestantRuns& c) { return c.figures[figure].count > 0; });
 }
 
 Comparison compare(const CampaignPlan& plan, const std::vector<RunFigures>& runs) {
   Comparison comparison;
   comparison.runs_planned = static_cast<int>(all_jobs(plan).size());
   comparison.runs_there = static_cast<int>(runs.size());
-  std::vector<std::optional<double>> budgets(plan.budgets_s.begin(), plan.budgets_s.end());
-  if (budgets.empty()) budgets.emplace_back(std::nullopt);
   for (const auto& mission : plan.missions) {
-    for (const auto& budget : budgets) {
+    for (const auto& rules : campaign_rules(plan)) {
       Match match;
       match.mission = mission.stem().string();
-      match.budget_s = budget;
+      match.budget_s = rules.budget_s;
+      match.protocol = rules.protocol;
       for (const auto& contestant : plan.contestants) {
         ContestantRuns its{
-            contestant.label(), select(runs, match.mission, budget, contestant.label()), {}};
+            contestant.label(), select(runs, match.mission, rules, contestant.label()), {}};
         if (its.runs.empty()) continue;
         its.figures = figures_of(its.runs);
         match.fruits_total = std::max(match.fruits_total, its.runs.front().fruits_total);

@@ -26,6 +26,7 @@ std::string figures_html(const Match& match) {
   }
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < figures().size(); ++i) {
+    if (!match.anybody_has(i)) continue;
     const Figure& figure = figures()[i];
     std::vector<std::string> row = {figure.title};
     for (const auto& c : match.contestants) {
@@ -51,6 +52,7 @@ std::string pairs_html(const Match& match) {
   }
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < figures().size(); ++i) {
+    if (!match.anybody_has(i)) continue;
     const Figure& figure = figures()[i];
     std::vector<std::string> row = {figure.title};
     for (const auto& other : match.against_first) {
@@ -120,7 +122,9 @@ std::string headline_html(const Comparison& comparison) {
                     rows);
 }
 
-std::string page(const Comparison& comparison) {
+}  // namespace
+
+std::string comparison_html(const Comparison& comparison) {
   std::string body = headline_html(comparison);
   for (const auto& group : by_mission(comparison)) {
     if (const auto plot = budget_plot(group)) {
@@ -129,16 +133,19 @@ std::string page(const Comparison& comparison) {
     }
     for (const Match* match : group) body += match_html(*match);
   }
-  return html_page("canopeer: planners compared", body);
+  return body;
 }
+
+namespace {
 
 Expected<void> write_plots(const fs::path& dir, const Comparison& comparison) {
   std::error_code code;
   fs::create_directories(dir, code);
   if (code) return fail(dir.string() + ": cannot be made: " + code.message());
   for (const auto& match : comparison.matches) {
-    const std::string name =
-        match.mission + (match.budget_s ? fmt::format("_{:g}s", *match.budget_s) : "");
+    std::string name = match.mission;
+    if (match.budget_s) name += fmt::format("_{:g}s", *match.budget_s);
+    if (!match.protocol.empty()) name += "_" + match.protocol;
     const auto write = [&](const char* what, const SvgPlot& plot, int height_px) {
       return write_file(dir / fmt::format("{}_{}.svg", name, what),
                         plot.svg_file(kWidePx, height_px));
@@ -167,7 +174,8 @@ Expected<void> write_comparison(const fs::path& out, const CampaignPlan& plan,
   if (auto ok = write_file(out / "comparison.csv", comparison_csv(comparison)); !ok) return ok;
   if (auto ok = write_file(out / "comparison.md", comparison_markdown(comparison)); !ok) return ok;
   if (auto ok = write_plots(out / "plots", comparison); !ok) return ok;
-  return write_file(out / "comparison.html", page(comparison));
+  return write_file(out / "comparison.html",
+                    html_page("canopeer: planners compared", comparison_html(comparison)));
 }
 
 }  // namespace canopeer

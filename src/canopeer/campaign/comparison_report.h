@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "canopeer/campaign/comparison.h"
@@ -13,5 +14,8 @@ namespace canopeer {
 [[nodiscard]] Expected<void> write_comparison(const std::filesystem::path& out,
                                               const CampaignPlan& plan,
                                               const std::vector<RunFigures>& runs);
+
+/// What the page shows, as HTML: headline, and every match.
+[[nodiscard]] std::string comparison_html(const Comparison& comparison);
 
 }  // namespace canopeer

@@ -18,6 +18,7 @@ std::string figure_table(const Match& match) {
   }
   text += "\n" + rule + "\n";
   for (std::size_t i = 0; i < figures().size(); ++i) {
+    if (!match.anybody_has(i)) continue;
     const Figure& figure = figures()[i];
     text += fmt::format("| {} |", figure.title);
     for (const auto& c : match.contestants) {
@@ -44,6 +45,7 @@ std::string paired_table(const Match& match) {
   }
   text += "\n" + rule + "\n";
   for (std::size_t i = 0; i < figures().size(); ++i) {
+    if (!match.anybody_has(i)) continue;
     const Figure& figure = figures()[i];
     text += fmt::format("| {} |", figure.title);
     for (const auto& other : match.against_first) {
@@ -92,12 +94,12 @@ std::string p_text(const std::optional<double>& p) {
 std::string runs_csv(const std::vector<RunFigures>& runs) {
   std::string text = "mission,budget_s,planner,seed,fruits_total";
   for (const Figure& figure : figures()) text += fmt::format(",{}", figure.key);
-  text += "\n";
+  text += ",protocol\n";
   for (const auto& run : runs) {
     text += fmt::format("{},{},{},{},{}", run.job.mission_name, budget_text(run.job.budget_s),
                         run.job.contestant.label(), run.job.seed, run.fruits_total);
     for (const auto& value : run.values) text += value ? fmt::format(",{:.6g}", *value) : ",";
-    text += "\n";
+    text += "," + run.job.protocol + "\n";
   }
   return text;
 }
@@ -105,7 +107,7 @@ std::string runs_csv(const std::vector<RunFigures>& runs) {
 std::string comparison_csv(const Comparison& comparison) {
   std::string text =
       "mission,budget_s,planner,figure,n,mean,standard_deviation,low95,high95,pairs,difference,"
-      "difference_low95,difference_high95,p_wilcoxon,p_permutation\n";
+      "difference_low95,difference_high95,p_wilcoxon,p_permutation,protocol\n";
   for (const auto& match : comparison.matches) {
     for (std::size_t c = 0; c < match.contestants.size(); ++c) {
       for (std::size_t i = 0; i < figures().size(); ++i) {
@@ -114,9 +116,9 @@ std::string comparison_csv(const Comparison& comparison) {
                                         ? ",,,"
                                         : fmt::format("{:.6g},{:.6g},{:.6g},{:.6g}", f.mean,
                                                       f.standard_deviation, f.low95, f.high95);
-        text += fmt::format("{},{},{},{},{},{},{}\n", match.mission, budget_text(match.budget_s),
+        text += fmt::format("{},{},{},{},{},{},{},{}\n", match.mission, budget_text(match.budget_s),
                             match.contestants[c].label, figures()[i].key, f.count, numbers,
-                            difference_fields(match, c, i));
+                            difference_fields(match, c, i), match.protocol);
       }
     }
   }

@@ -12,7 +12,7 @@ namespace canopeer {
 
 /// `comparison.csv`: one row per mission, budget, planner and figure. Columns: n, mean, standard
 /// deviation, 95 % interval; then the paired difference from the first planner, with interval and p
-/// values.
+/// values, and the protocol.
 [[nodiscard]] std::string comparison_csv(const Comparison& comparison);
 
 /// `comparison.md`: a table of all figures for each mission and budget, and the paired tests.

@@ -15,6 +15,8 @@
 #include <thread>
 
 #include "canopeer/base/atomic_file.h"
+#include "canopeer/campaign/run_command.h"
+#include "canopeer/campaign/run_folder.h"
 
 namespace canopeer {
 namespace {
@@ -22,15 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path with_ending(fs::path path, const char* ending) { return path += ending; }
-
-/// What a run depends on: its arguments, and the mission file's content.
-std::string command_text(const CampaignPlan& plan, const CampaignJob& job) {
-  std::string text;
-  CampaignPlan same = plan;
-  same.threads = 1;  // results do not depend on it
-  for (const auto& word : run_arguments(same, job, "OUT")) text += word + "\n";
-  return text + "---\n" + read_file(job.mission).value_or("");
-}
 
 std::string last_line(const fs::path& log) {
   std::string text = read_file(log).value_or("");
@@ -71,17 +64,17 @@ class JobPool {
   }
 
   Expected<void> find_done() {
+    // Another shard's runs lie in the same folder, and must be of the same campaign.
+    for (const auto& job : all_jobs(plan_)) {
+      if (!is_done(options_.out, job)) continue;
+      if (auto ok = made_by_this_command(job); !ok) return ok;
+    }
     for (std::size_t i = 0; i < jobs_.size(); ++i) {
-      const fs::path dir = options_.out / jobs_[i].dir;
-      if (!is_done(options_.out, jobs_[i])) {
+      if (is_done(options_.out, jobs_[i])) {
+        ++progress_.done;
+      } else {
         waiting_.push_back(i);
-        continue;
       }
-      if (read_file(dir / "command").value_or("") != command_text(plan_, jobs_[i])) {
-        return fail(dir.string() + ": was made by another command or another mission file (see " +
-                    (dir / "command").string() + "); choose another --out, or remove it");
-      }
-      ++progress_.done;
     }
     std::reverse(waiting_.begin(), waiting_.end());  // taken from the back
     return {};
@@ -104,19 +97,34 @@ class JobPool {
   }
 
  private:
+  struct Running {
+    std::size_t number;  ///< of the job
+    RunFolder folder;
+  };
+
+  [[nodiscard]] Expected<void> made_by_this_command(const CampaignJob& job) const {
+    const fs::path file = options_.out / job.dir / "command";
+    if (same_command(read_file(file).value_or(""), command_text(plan_, job))) return {};
+    return fail(file.parent_path().string() +
+                ": was made by another command or another mission file (see " + file.string() +
+                "); choose another --out, or remove it");
+  }
+
   Expected<void> start_next() {
     const std::size_t number = waiting_.back();
     waiting_.pop_back();
-    const fs::path dir = options_.out / jobs_[number].dir;
-    const fs::path part = with_ending(dir, ".part");
-    std::error_code code;
-    fs::remove_all(part, code);
-    fs::create_directories(part, code);
-    if (code) return fail(part.string() + ": cannot be made: " + code.message());
-    const pid_t child = start(options_.program, run_arguments(plan_, jobs_[number], part),
-                              with_ending(dir, ".log"));
+    const CampaignJob& job = jobs_[number];
+    if (is_done(options_.out, job)) {  // by another process, meanwhile
+      if (auto ok = made_by_this_command(job); !ok) return ok;
+      tell(job, true);
+      return {};
+    }
+    RunFolder folder(options_.out / job.dir);
+    if (auto ok = folder.begin(); !ok) return ok;
+    const pid_t child = start(options_.program, run_arguments(plan_, job, folder.part()),
+                              with_ending(folder.dir(), ".log"));
     if (child < 0) return fail(fmt::format("no process can be started: {}", std::strerror(errno)));
-    running_[child] = number;
+    running_.emplace(child, Running{number, std::move(folder)});
     progress_.running = static_cast<int>(running_.size());
     return {};
   }
@@ -128,18 +136,23 @@ class JobPool {
         ++it;
         continue;
       }
-      const std::size_t number = it->second;
+      const Running ended = std::move(it->second);
       it = running_.erase(it);
-      ended(jobs_[number], WIFEXITED(status) && WEXITSTATUS(status) == 0);
+      progress_.running = static_cast<int>(running_.size());
+      const CampaignJob& job = jobs_[ended.number];
+      bool good = WIFEXITED(status) && WEXITSTATUS(status) == 0 && keep(job, ended.folder);
+      if (!good && is_done(options_.out, job)) {  // another process was first
+        ended.folder.drop();
+        good = made_by_this_command(job).has_value();
+      }
+      if (!good) ended.folder.leave();
+      tell(job, good);
     }
   }
 
-  void ended(const CampaignJob& job, bool good) {
-    const fs::path dir = options_.out / job.dir;
-    const fs::path log = with_ending(dir, ".log");
+  void tell(const CampaignJob& job, bool good) {
+    const fs::path log = with_ending(options_.out / job.dir, ".log");
     std::error_code code;
-    if (good) good = keep(job);
-    progress_.running = static_cast<int>(running_.size());
     progress_.changed = &job;
     progress_.state = good ? JobState::done : JobState::failed;
     progress_.message = good ? "" : last_line(log);
@@ -149,22 +162,22 @@ class JobPool {
     progress_.changed = nullptr;
   }
 
-  bool keep(const CampaignJob& job) {
-    const fs::path dir = options_.out / job.dir;
-    const fs::path part = with_ending(dir, ".part");
+  [[nodiscard]] bool keep(const CampaignJob& job, const RunFolder& folder) const {
     std::error_code code;
     if (!options_.keep_maps) {
       for (const char* name : {"map.ot", "map_roi.ot", "pictures"})
-        fs::remove_all(part / name, code);
+        fs::remove_all(folder.part() / name, code);
     }
-    if (!write_file(part / "command", command_text(plan_, job))) return false;
-    fs::rename(part, dir, code);
-    return !code;
+    return write_file(folder.part() / "command", command_text(plan_, job)).has_value() &&
+           folder.finish().has_value();
   }
 
   void end_all() {
-    for (const auto& [child, number] : running_) kill(child, SIGKILL);
-    for (const auto& [child, number] : running_) waitpid(child, nullptr, 0);
+    for (const auto& [child, run] : running_) kill(child, SIGKILL);
+    for (const auto& [child, run] : running_) {
+      waitpid(child, nullptr, 0);
+      run.folder.drop();
+    }
     running_.clear();
   }
 
@@ -173,7 +186,7 @@ class JobPool {
   const std::function<void(const CampaignProgress&)>& report_;
   std::vector<CampaignJob> jobs_;
   std::vector<std::size_t> waiting_;
-  std::map<pid_t, std::size_t> running_;
+  std::map<pid_t, Running> running_;
   CampaignProgress progress_;
 };
 

@@ -32,10 +32,14 @@ struct JobPoolOptions {
   bool keep_maps = false;         ///< keep map.ot, map_roi.ot and pictures, tens of MB a run
 };
 
-/// Makes the runs as processes of this machine. A run is made in `DIR.part` and renamed when it is
-/// whole; `DIR/command` holds the command that made it. Runs that are there are left alone, so an
-/// interrupted campaign goes on where it was. A run that fails is reported, and the others go on.
-/// What a failed run printed is kept in `DIR.log`.
+/// Makes the runs as processes of this machine. A run is made in `DIR.XXXXXXXX.part` and renamed
+/// when it is whole; `DIR/command` holds the command that made it. Runs that are there are left
+/// alone, so an interrupted campaign goes on where it was. A run that fails is reported, and the
+/// others go on. What a failed run printed is kept in `DIR.log`.
+///
+/// Several processes, on one machine or on several that share the folder, may work on a campaign at
+/// the same time: shards of it share nothing, and of two that make the same run the first to finish
+/// counts.
 ///
 /// When `stop` is set, the runs under way are ended and lost, and the call returns. Error: OUT
 /// cannot be written, or holds runs made by other commands (another mission file, other settings).

@@ -7,6 +7,7 @@
 #include "canopeer/base/check.h"
 #include "canopeer/campaign/statistics.h"
 #include "canopeer/eval/metrics.h"
+#include "canopeer/record/yardstick_shares.h"
 #include "canopeer/report/sample_spread.h"
 #include "canopeer/report/view_intervals.h"
 
@@ -42,6 +43,27 @@ constexpr std::array kFigures = {
     Figure{"frames_fused", "frames on the way: taken in", 0, Better::neither},
     Figure{"frames_late", "frames on the way: late", 0, Better::less},
     Figure{"frames_blurred", "frames on the way: too blurred", 0, Better::neither},
+    Figure{"auc_views", "AUC over views", 3, Better::more},
+    Figure{"count_accuracy_pct", "count accuracy / %", 1, Better::more},
+    Figure{"volume_ratio_pct", "volume ratio of fruits found / %", 1, Better::neither},
+    Figure{"camera_path_m", "camera path / m", 1, Better::less},
+    Figure{"gain_correlation_same_space", "the same over one space, rank correlation", 3,
+           Better::more},
+    Figure{"time_mapping_s", "time mapping / s", 1, Better::less},
+    Figure{"time_planning_s", "time planning / s", 1, Better::less},
+    Figure{"time_execution_s", "time moving to views / s", 1, Better::neither},
+    Figure{"time_waiting_s", "time waiting / s", 1, Better::less},
+    Figure{"time_transitions_s", "time between segments / s", 1, Better::less},
+    Figure{"ceiling_fruits_share", "found / fruits that can be seen", 3, Better::more},
+    Figure{"ceiling_surface_share", "surface seen / that can be seen", 3, Better::more},
+    Figure{"clairvoyant_found_share", "found / clairvoyant's", 3, Better::more},
+    Figure{"clairvoyant_auc_share", "AUC / clairvoyant's", 3, Better::more},
+    Figure{"best_found_share", "found / most known", 3, Better::more},
+    Figure{"best_auc_share", "AUC / best known", 3, Better::more},
+    Figure{"sampled_found_gap", "found: gap to the sampled bound", 3, Better::less},
+    Figure{"sampled_auc_gap", "AUC: gap to the sampled bound", 3, Better::less},
+    Figure{"certified_found_gap", "found: gap to the certified bound", 3, Better::less},
+    Figure{"certified_auc_gap", "AUC: gap to the certified bound", 3, Better::less},
 };
 
 template <typename T>
@@ -114,6 +136,28 @@ void add_summary(const Summary& s, RunFigures& run) {
   set("frames_fused", number(s.frames_fused));
   set("frames_late", number(s.frames_late));
   set("frames_blurred", number(s.frames_blurred));
+  set("auc_views", s.auc_views);
+  set("count_accuracy_pct", s.count_accuracy_pct);
+  set("volume_ratio_pct", s.volume_ratio_pct);
+  set("camera_path_m", s.camera_path_length_m);
+  set("gain_correlation_same_space", s.gain_correlation_same_space);
+  if (s.time) {
+    set("time_mapping_s", s.time->mapping_s);
+    set("time_planning_s", s.time->planning_s);
+    set("time_execution_s", s.time->execution_s);
+    set("time_waiting_s", s.time->waiting_s);
+    set("time_transitions_s", s.time->transitions_s);
+  }
+  set("ceiling_fruits_share", s.ceiling_fruits_share);
+  set("ceiling_surface_share", s.ceiling_surface_share);
+  set("clairvoyant_found_share", s.clairvoyant_found_share);
+  set("clairvoyant_auc_share", s.clairvoyant_auc_share);
+  set("best_found_share", s.best_found_share);
+  set("best_auc_share", s.best_auc_share);
+  set("sampled_found_gap", s.sampled_found_gap);
+  set("sampled_auc_gap", s.sampled_auc_gap);
+  set("certified_found_gap", s.certified_found_gap);
+  set("certified_auc_gap", s.certified_auc_gap);
 }
 
 }  // namespace
@@ -154,9 +198,18 @@ RunFigures run_figures(const CampaignJob& job, const RunFiles& files) {
   return run;
 }
 
-Expected<RunFigures> read_run_figures(const std::filesystem::path& out, const CampaignJob& job) {
-  const auto files = read_run_files(out / job.dir);
+Expected<RunFigures> read_run_figures(const std::filesystem::path& out, const CampaignJob& job,
+                                      const std::filesystem::path& yardstick) {
+  auto files = read_run_files(out / job.dir);
   if (!files) return fail(files.error().message);
+  if (yardstick.empty()) return run_figures(job, *files);
+  const auto read = read_yardstick(yardstick);
+  if (!read) return tl::unexpected(read.error());
+  const Summary& s = files->summary;
+  if (auto ok = check_fits(*read, s.mission, job.protocol, std::nullopt, s.fruits_total); !ok) {
+    return fail_in(yardstick.string(), ok.error());
+  }
+  hold_against(*read, files->summary);
   return run_figures(job, *files);
 }
 

@@ -48,8 +48,11 @@ struct RunFigures {
 
 [[nodiscard]] RunFigures run_figures(const CampaignJob& job, const RunFiles& files);
 
-/// Reads a finished run of the campaign in `out`.
+/// Reads a finished run of the campaign in `out`. `yardstick`: the file of it (yardstick_of()) that
+/// the run is held against, whatever its summary says; empty: as it says. The error: files that
+/// cannot be read, or a yardstick of another world or protocol.
 [[nodiscard]] Expected<RunFigures> read_run_figures(const std::filesystem::path& out,
-                                                    const CampaignJob& job);
+                                                    const CampaignJob& job,
+                                                    const std::filesystem::path& yardstick = {});
 
 }  // namespace canopeer

@@ -25,24 +25,6 @@ double deviation_of(std::span<const double> values, double mean) {
   return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
-/// Ranks from 1, ties share the mean of theirs.
-std::vector<double> ranks_of(std::span<const double> values) {
-  std::vector<std::size_t> order(values.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
-  std::vector<double> ranks(values.size());
-  for (std::size_t i = 0; i < order.size();) {
-    std::size_t end = i;
-    while (end < order.size() && values[order[end]] == values[order[i]]) ++end;
-    for (std::size_t k = i; k < end; ++k) {
-      ranks[order[k]] = 0.5 * static_cast<double>(i + 1 + end);
-    }
-    i = end;
-  }
-  return ranks;
-}
-
 /// Share of all sign choices whose |Σ ± weight| is at least `observed`; exact by counting sums of
 /// half steps (the weights are ranks, so multiples of 0.5).
 double exact_rank_p(const std::vector<double>& ranks, double observed) {
@@ -149,24 +131,6 @@ PairedFigures paired_figures(std::span<const double> a, std::span<const double> 
   figures.p_wilcoxon = wilcoxon_p(differences);
   figures.p_permutation = permutation_p(differences, seed);
   return figures;
-}
-
-std::optional<double> rank_correlation(std::span<const double> a, std::span<const double> b) {
-  CANOPEER_CHECK(a.size() == b.size(), "pairs");
-  if (a.size() < 3) return std::nullopt;
-  const auto rank_a = ranks_of(a);
-  const auto rank_b = ranks_of(b);
-  const double mean = 0.5 * static_cast<double>(a.size() + 1);
-  double ab = 0.0;
-  double aa = 0.0;
-  double bb = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    ab += (rank_a[i] - mean) * (rank_b[i] - mean);
-    aa += (rank_a[i] - mean) * (rank_a[i] - mean);
-    bb += (rank_b[i] - mean) * (rank_b[i] - mean);
-  }
-  if (aa == 0.0 || bb == 0.0) return std::nullopt;
-  return ab / std::sqrt(aa * bb);
 }
 
 }  // namespace canopeer

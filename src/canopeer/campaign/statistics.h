@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "canopeer/base/rank_correlation.h"
+
 namespace canopeer {
 
 /// A sample in figures. All zero for an empty sample; no spread and no interval for one value.
@@ -34,9 +36,5 @@ struct PairedFigures {
 /// `a` and `b` are of the same length, pair by pair.
 [[nodiscard]] PairedFigures paired_figures(std::span<const double> a, std::span<const double> b,
                                            std::uint64_t seed = 1);
-
-/// Spearman's rank correlation; nothing for fewer than three pairs or a constant sample.
-[[nodiscard]] std::optional<double> rank_correlation(std::span<const double> a,
-                                                     std::span<const double> b);
 
 }  // namespace canopeer

@@ -6,6 +6,8 @@
 namespace canopeer {
 namespace {
 
+constexpr const char* kLabels70 = "labels_70";
+
 /// Field of view and depth range at 640 × 480. D400 family data sheet: the D435 has 75° × 62° at
 /// this size and no depth nearer than 0.175 m; of the D405 the middle 640 of 848 columns with 84°.
 struct CameraPreset {
@@ -97,8 +99,13 @@ void read_camera(YamlMap camera, MissionFile& mission) {
   read_motion(camera, sensor.motion);
 }
 
-void read_noise(YamlMap& file, RgbdSensorOptions& sensor) {
-  SensorNoiseOptions o = sensor_noise_preset(file.choice("noise", "none", sensor_noise_names()));
+void read_noise(YamlMap& file, RgbdSensorOptions& sensor, DetectorOptions& detector) {
+  std::vector<std::string> names = sensor_noise_names();
+  names.emplace_back(kLabels70);
+  const std::string name = file.choice("noise", "none", names);
+  const bool labels_70 = name == kLabels70;
+  if (labels_70) detector.kind = "labels";
+  SensorNoiseOptions o = sensor_noise_preset(labels_70 ? "none" : name);
   YamlMap m = file.map("noise_model");
   o.baseline_m = m.number("baseline_m", o.baseline_m, {0.0, 1.0});
   o.disparity_noise_px = m.number("disparity_noise_px", o.disparity_noise_px, {0.0, 10.0});
@@ -120,7 +127,15 @@ void read_noise(YamlMap& file, RgbdSensorOptions& sensor) {
   if (auto ok = o.validate(); !ok) file.complain("noise_model", ok.error().message);
   sensor.noise = o;
   // Half of the labels wrong is none at all; who writes 0.7 means that many are right.
-  sensor.label_noise = file.number("label_noise", 0.0, {0.0, 0.5});
+  sensor.label_noise = file.number("label_noise", labels_70 ? 0.3 : 0.0, {0.0, 0.5});
+}
+
+void check_labels(YamlMap& file, const DetectorOptions& detector) {
+  const bool blind = detector.kind == "colour" || detector.kind == "network";
+  if (blind && file.is_text("noise") && file.text("noise", {}) == kLabels70) {
+    file.complain("noise", "labels_70 is of the camera's labels, at which detector '" +
+                               detector.kind + "' does not look; expected detector.kind: labels");
+  }
 }
 
 }  // namespace canopeer

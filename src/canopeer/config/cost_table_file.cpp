@@ -14,10 +14,11 @@ Expected<CostTable> load_cost_table(const std::filesystem::path& path) {
   CostTable table;
   for (std::size_t i = 0; i < kWorkKinds; ++i) {
     const auto kind = static_cast<Work>(i);
-    // Tables of earlier versions do not have it: the fruit map cost nothing.
-    table[kind] = kind == Work::fruit_frame
-                      ? seconds.number(work_name(kind), 0.0, {0.0, 1000.0})
-                      : seconds.required_number(work_name(kind), {0.0, 1000.0});
+    // Tables of earlier versions do not have these: the fruit map cost nothing, and nobody solved
+    // integer programs.
+    const bool may_lack = kind == Work::fruit_frame || kind == Work::simplex_row;
+    table[kind] = may_lack ? seconds.number(work_name(kind), 0.0, {0.0, 1000.0})
+                           : seconds.required_number(work_name(kind), {0.0, 1000.0});
   }
   if (auto done = file->finish(); !done) return tl::unexpected(done.error());
   return table;

@@ -10,7 +10,7 @@
 namespace canopeer {
 
 /// Reads a table of seconds per unit of work: one key per kind (work_name), all required but
-/// fruit_frame (0), ≥ 0.
+/// fruit_frame and simplex_row (0), ≥ 0.
 /// "free" needs no file: see CostTable's default.
 [[nodiscard]] Expected<CostTable> load_cost_table(const std::filesystem::path& path);
 

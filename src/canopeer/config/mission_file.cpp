@@ -7,6 +7,9 @@
 #include "canopeer/config/detector_section.h"
 #include "canopeer/config/frames_section.h"
 #include "canopeer/config/fruit_section.h"
+#include "canopeer/config/gomvp_section.h"
+#include "canopeer/config/nbs_section.h"
+#include "canopeer/config/protocols.h"
 #include "canopeer/config/ros2_file.h"
 #include "canopeer/config/world_section.h"
 #include "canopeer/config/yaml_reader.h"
@@ -42,8 +45,6 @@ void read_segments(YamlMap& file, MissionOptions& mission) {
   if (static_cast<std::size_t>(first) < mission.segments.size()) {
     mission.segments.resize(static_cast<std::size_t>(first));
   }
-  mission.segment_time_s =
-      file.number("time_per_segment_s", mission.segment_time_s, {1.0, 36000.0});
 }
 
 void read_map(YamlMap map, MissionOptions& mission) {
@@ -146,6 +147,11 @@ void read_drive_by(YamlMap drive_by, DriveByOptions& o) {
   o.overrun_m = drive_by.number("overrun_m", o.overrun_m, {0.0, 100.0});
 }
 
+void read_playback(YamlMap playback, PlaybackOptions& o) {
+  const std::string plan = playback.text("plan", {});
+  if (!plan.empty()) o.plan = playback.directory() / plan;
+}
+
 void read_collision(YamlMap collision, CollisionOptions& o) {
   o.map_padding_m = collision.number("map_padding_m", o.map_padding_m, {0.0, 0.5});
   o.self_padding_m = collision.number("self_padding_m", o.self_padding_m, {0.0, 0.5});
@@ -213,6 +219,7 @@ Expected<MissionFile> load_mission(const fs::path& path, const Overrides& overri
   VmpOptions& vmp = mission.planners.vmp;
   mission.name = file->text("name", path.stem().string());
   result.robot = path.parent_path() / file->required_text("robot");
+  if (auto ok = apply_protocol(*file, overrides, mission); !ok) return tl::unexpected(ok.error());
   mission.planner = file->choice("planner", mission.planner, registries.planners.names());
   mission.seed = static_cast<std::uint64_t>(file->number("seed", 1, {0, 9007199254740992.0}));
   // The published system is as fast as it was, unless asked otherwise.
@@ -223,21 +230,27 @@ Expected<MissionFile> load_mission(const fs::path& path, const Overrides& overri
     return tl::unexpected(ok.error());
   }
   read_camera(file->map("camera"), result);
-  read_noise(*file, result.simulation.sensor);
+  read_noise(*file, result.simulation.sensor, mission.detector);
   read_frames(*file, result.simulation.camera, result.simulation.sensor.motion.exposure_s,
               registries.planners.manners(mission.planner), mission);
+  read_rules(*file, mission);
   read_map(file->map("map"), mission);
   read_view_sampling(file->map("view_sampling"), vmp.builder);
   read_graph(file->map("graph"), vmp.builder);
   read_search(file->map("search"), vmp);
   read_execution(file->map("execution"), vmp);
+  read_nbs(file->map("nbs"), mission.planners.nbs);
+  read_nbv(file->map("nbv"), mission.planners.nbv);
   read_rvp(file->map("rvp"), mission.planners.rvp);
   read_coverage(file->map("coverage"), mission.planners.coverage);
   read_sweep(file->map("sweep"), mission.planners.sweep);
   read_drive_by(file->map("drive_by"), mission.planners.drive_by);
+  read_playback(file->map("playback"), mission.planners.playback);
+  read_gomvp(file->map("gomvp"), mission.planners.gomvp);
   read_collision(file->map("collision"), mission.collision);
   read_detector(file->map("detector"), path.parent_path(), registries.detectors.names(),
                 mission.detector);
+  check_labels(*file, mission.detector);
   mission.planners.own = read_own(file->map("own_planner"));
   mission.detector.own = read_own(file->map("own_detector"));
   read_fruit(*file, mission.fruit);

@@ -4,6 +4,7 @@
 
 #include "canopeer/config/imported_world.h"
 #include "canopeer/geometry/angles.h"
+#include "canopeer/scene/scene_file.h"
 #include "canopeer/scene/worlds.h"
 
 namespace canopeer {
@@ -99,7 +100,12 @@ void read_generated_world(YamlMap& world, WorldOptions& options) {
 Expected<void> read_world(YamlMap world, WorldSource& source) {
   if (world.has("import")) return read_imported_world(world, source);
   if (world.has("scene")) {
-    auto file = load_scene_file(world.directory() / world.text("scene", ""));
+    const std::filesystem::path path = world.directory() / world.text("scene", "");
+    if (is_frozen_scene(path)) {
+      source.import.file = path;
+      return {};
+    }
+    auto file = load_scene_file(path);
     if (!file) return tl::unexpected(file.error());
     source = std::move(file->world);
     return {};
@@ -109,6 +115,11 @@ Expected<void> read_world(YamlMap world, WorldSource& source) {
 }
 
 Expected<SceneFile> load_scene_file(const std::filesystem::path& path) {
+  if (is_frozen_scene(path)) {
+    SceneFile frozen;
+    frozen.world.import.file = path;
+    return frozen;
+  }
   auto yaml = YamlMap::load(path);
   if (!yaml) return tl::unexpected(yaml.error());
   SceneFile file;
@@ -124,6 +135,7 @@ Expected<SceneFile> load_scene_file(const std::filesystem::path& path) {
 }
 
 bool is_scene_file(const std::filesystem::path& path) {
+  if (is_frozen_scene(path)) return true;
   auto yaml = YamlMap::load(path);
   return yaml && !yaml->has("robot") && !yaml->has("stops_travel_m");
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "canopeer/base/check.h"
@@ -58,6 +59,36 @@ double mean_detected_share(const std::vector<FoundAtTime>& found, double end_s, 
   return area / (end_s * fruits_total);
 }
 
+/// Detected at time `t_s`, from the frames until then.
+int detected_at(const std::vector<FoundAtTime>& found, double t_s) {
+  const auto later = std::upper_bound(found.begin(), found.end(), t_s,
+                                      [](double t, const FoundAtTime& f) { return t < f.t_s; });
+  return later == found.begin() ? 0 : std::prev(later)->detected;
+}
+
+/// Mean of detected / fruits_total over the views a rule gives, as many to each segment: views that
+/// a segment did not take keep the count of its end, segments not begun that of the run's.
+std::optional<double> mean_share_over_views(const RunRecord& record,
+                                            const std::vector<FoundAtTime>& found,
+                                            int fruits_total) {
+  const int planned = record.header.views_planned;
+  if (planned <= 0 || record.header.segments <= 0 || fruits_total == 0) return std::nullopt;
+  const int each = planned / record.header.segments;
+  double sum = 0.0;
+  for (const SegmentEvent& segment : record.segments) {
+    int left = each;
+    for (const ViewEvent& view : record.views) {
+      if (view.segment != segment.segment || left == 0) continue;
+      sum += detected_at(found, view.t_s);
+      --left;
+    }
+    sum += left * detected_at(found, segment.end_s);
+  }
+  const auto begun = static_cast<int>(record.segments.size());
+  sum += (record.header.segments - begun) * each * detected_at(found, record.end_s);
+  return sum / (each * record.header.segments * fruits_total);
+}
+
 double volume_error(double estimated_cm3, double true_cm3) {
   return std::abs(estimated_cm3 - true_cm3) / true_cm3;
 }
@@ -65,6 +96,7 @@ double volume_error(double estimated_cm3, double true_cm3) {
 /// Mean errors over pairs; null without any.
 struct MeanErrors {
   double distance_sum = 0.0, volume_sum = 0.0;
+  double estimated_cm3 = 0.0, true_cm3 = 0.0;  // of pairs with a true volume
   int pairs = 0, volumes = 0;
 
   void add(const FruitPair& pair, const FruitEstimate& estimate, const FruitTruth& truth) {
@@ -72,6 +104,8 @@ struct MeanErrors {
     ++pairs;
     if (!(truth.volume_cm3 > 0.0)) return;
     volume_sum += volume_error(estimate.volume_cm3, truth.volume_cm3);
+    estimated_cm3 += estimate.volume_cm3;
+    true_cm3 += truth.volume_cm3;
     ++volumes;
   }
   [[nodiscard]] std::optional<double> centre() const {
@@ -79,6 +113,9 @@ struct MeanErrors {
   }
   [[nodiscard]] std::optional<double> volume() const {
     return volumes > 0 ? std::optional(volume_sum / volumes) : std::nullopt;
+  }
+  [[nodiscard]] std::optional<double> volume_ratio_pct() const {
+    return volumes > 0 ? std::optional(100.0 * estimated_cm3 / true_cm3) : std::nullopt;
   }
 };
 
@@ -98,6 +135,7 @@ void score_final_fruits(std::span<const FruitEstimate> fruits, std::span<const F
   }
   metrics.centre_error_mean_m = all.centre();
   metrics.volume_error_mean = all.volume();
+  metrics.volume_ratio_pct = all.volume_ratio_pct();
   if (!coverage.empty()) {
     metrics.fruits_half_seen = half_seen.pairs;
     metrics.centre_error_half_seen_m = half_seen.centre();
@@ -157,6 +195,11 @@ RunMetrics compute_metrics(const RunRecord& record, std::span<const FruitEstimat
       truth.begin(), truth.end(), [](const FruitTruth& fruit) { return fruit.counted; }));
   metrics.fruits_total = total;
   score_final_fruits(fruits, truth, coverage, metrics);
+  if (total > 0) {
+    const int counted = *metrics.detected + *metrics.false_positives;
+    metrics.count_accuracy_pct =
+        100.0 * (1.0 - std::abs(counted - total) / static_cast<double>(total));
+  }
   score_seen_fruits(fruits, truth, coverage, metrics);
   metrics.roi_surface_coverage = mean_coverage(truth, coverage);
   metrics.found = found_over_time(record, truth);
@@ -164,7 +207,10 @@ RunMetrics compute_metrics(const RunRecord& record, std::span<const FruitEstimat
   metrics.time_to_80pct_s = time_to_share(metrics.found, 0.8, total);
   metrics.time_to_90pct_s = time_to_share(metrics.found, 0.9, total);
   const double whole_s = record.header.mission_time_s;
-  metrics.auc = mean_detected_share(metrics.found, whole_s > 0.0 ? whole_s : record.end_s, total);
+  if (!record.header.without_time_limit()) {
+    metrics.auc = mean_detected_share(metrics.found, whole_s > 0.0 ? whole_s : record.end_s, total);
+  }
+  metrics.auc_views = mean_share_over_views(record, metrics.found, total);
   return metrics;
 }
 

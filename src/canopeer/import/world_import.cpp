@@ -9,6 +9,7 @@
 #include "canopeer/import/mesh_file.h"
 #include "canopeer/import/sdf/model_paths.h"
 #include "canopeer/import/sdf/sdf_world.h"
+#include "canopeer/scene/scene_file.h"
 
 namespace canopeer {
 namespace {
@@ -250,6 +251,13 @@ void note_what_is_missing(const NamePatternOptions& patterns, ImportedScene* res
 
 Expected<ImportedScene> import_world(const WorldImportOptions& options,
                                      const ImportProgressCallback& progress) {
+  if (is_frozen_scene(options.file)) {
+    ImportedScene frozen;
+    auto scene = read_scene_file(options.file);
+    if (!scene) return tl::unexpected(scene.error());
+    frozen.scene = std::move(*scene);
+    return frozen;
+  }
   const auto patterns = NamePatterns::compile(options.patterns);
   if (!patterns) return tl::unexpected(patterns.error());
   std::string name;

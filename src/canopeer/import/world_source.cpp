@@ -1,5 +1,7 @@
 #include "canopeer/import/world_source.h"
 
+#include "canopeer/scene/scene_file.h"
+
 namespace canopeer {
 
 Expected<ImportedScene> build_world(const WorldSource& source, std::uint64_t seed,
@@ -11,7 +13,8 @@ Expected<ImportedScene> build_world(const WorldSource& source, std::uint64_t see
   }
   auto imported = !source.import.file.empty() ? import_world(source.import, progress)
                                               : place_scans(source.scans, progress);
-  if (imported) imported->scene.seed = seed;
+  // A frozen scene keeps the seed it was grown with.
+  if (imported && !is_frozen_scene(source.import.file)) imported->scene.seed = seed;
   return imported;
 }
 

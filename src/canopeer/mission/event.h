@@ -24,6 +24,8 @@
 
 namespace canopeer {
 
+struct SurfaceMesh;  // fruit/fruit_map.h
+
 /// The mission begins, or goes on in the middle.
 struct RunBegun {
   double t_s = 0.0;
@@ -42,6 +44,7 @@ struct SegmentBegun {
 struct SegmentEnded {
   int segment = 0;
   double end_s = 0.0;
+  std::shared_ptr<const SurfaceMesh> surface{};  ///< of the fruits, now; EventNeeds::surface
 };
 
 /// A frame was taken and everything learnt from it.
@@ -118,12 +121,14 @@ struct Steered {
 /// Work counted since the run began, after each segment and at the end.
 struct WorkDone {
   std::vector<WorkItem> work;
+  TimeSplit time{};  ///< where the mission's time went
 };
 
 /// The last event.
 struct RunEnded {
   double end_s = 0.0;
   bool interrupted = false;
+  std::shared_ptr<const SurfaceMesh> surface{};  ///< of the fruits; EventNeeds::surface
 };
 
 using Event = std::variant<RunBegun, SegmentBegun, SegmentEnded, FrameTaken, FrameOnTheWay,
@@ -134,6 +139,7 @@ using Event = std::variant<RunBegun, SegmentBegun, SegmentEnded, FrameTaken, Fra
 struct EventNeeds {
   bool map = false;   ///< MapChanged::map: a snapshot, which makes the mission copy what it changes
   bool plan = false;  ///< Planned::sketch
+  bool surface = false;  ///< SegmentEnded::surface, RunEnded::surface
 };
 
 }  // namespace canopeer

@@ -150,8 +150,15 @@ Expected<void> Mission::end() {
     if (auto told = s.events.emit(std::move(event)); !told && ok) ok = std::move(told);
   };
   tell(FruitsFound{end_s, s.cursor.views - 1, s.perception.fruits().fruits()});
-  if (s.time) tell(WorkDone{s.time->work_items()});
-  tell(RunEnded{end_s, interrupted});
+  if (s.time) {
+    s.time->book(&TimeSplit::transitions_s);
+    tell(WorkDone{s.time->work_items(), s.time->meters().time});
+  }
+  RunEnded ended{end_s, interrupted};
+  if (s.events.needs().surface) {
+    ended.surface = std::make_shared<const SurfaceMesh>(s.perception.fruits().surface());
+  }
+  tell(std::move(ended));
   s.events.finish();
   return ok;
 }
@@ -229,7 +236,7 @@ Expected<void> Mission::State::begin() {
 }
 
 Expected<void> Mission::State::decide() {
-  if (!cursor.stopped && !cursor.skip && !segment->time_is_up()) return segment->step();
+  if (!cursor.stopped && !cursor.skip && !segment->is_over()) return segment->step();
   cursor.next = Step::go_home;
   cursor.skip = false;
   return segment->end();
@@ -245,7 +252,8 @@ Expected<void> Mission::State::go_home() {
   const bool last = cursor.segment + 1 == segments() || over();
   cursor.next = last || cursor.stopped ? Step::done : Step::drive;
   if (cursor.next == Step::drive) ++cursor.segment;
-  return events.emit(WorkDone{time->work_items()});
+  time->book(&TimeSplit::transitions_s);
+  return events.emit(WorkDone{time->work_items(), time->meters().time});
 }
 
 /// Asks what to do, and holds as long as the answer says so. A hold takes nothing from the segment.
@@ -264,6 +272,7 @@ Expected<void> Mission::State::listen_to_steering() {
   }
   if (held) time->background().resume();
   cursor.held_s += ports.clock->now_s() - since_s;
+  if (time) time->held(ports.clock->now_s() - since_s);
   cursor.segment_start_s += ports.clock->now_s() - since_s;
   cursor.standing_since_s += ports.clock->now_s() - since_s;
   cursor.stopped = cursor.stopped || word.kind == Word::stop;

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "canopeer/mission/segment/segment_course.h"
 #include "canopeer/mission/steering.h"
 
 namespace canopeer {
@@ -20,6 +21,7 @@ struct MissionCursor {
   Step next = Step::drive;
   std::int32_t segment = 0;  ///< 0 …
   std::int32_t views = 0;    ///< taken since the run began
+  SegmentCourse course{};    ///< of the present segment
   double segment_start_s = 0.0;
   double standing_since_s = 0.0;
   double last_standing_s = 0.0;  ///< before the last motion
@@ -34,8 +36,9 @@ struct MissionCursor {
 
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(next, segment, views, segment_start_s, standing_since_s, last_standing_s, last_motion_s,
-            held_s, seen_distance_m, missed_motions, needs_person, skip, stopped, said);
+    archive(next, segment, views, course, segment_start_s, standing_since_s, last_standing_s,
+            last_motion_s, held_s, seen_distance_m, missed_motions, needs_person, skip, stopped,
+            said);
   }
 };
 

@@ -27,6 +27,7 @@ struct SegmentPlan {
   double time_s = 0.0;
   /// Stops along the row that its planner drives between itself; empty: it stays at `trolley`.
   std::vector<TrolleyState> row{};
+  int max_views = 0;  ///< it ends after so many; 0: the mission's max_views
 };
 
 /// Frames that are taken while the arm or the trolley moves. The paper takes none.
@@ -63,7 +64,10 @@ enum class MissionClock {
 struct MissionOptions {
   std::string name = "mission";
   std::vector<SegmentPlan> segments;
-  double segment_time_s = 60.0;  ///< transitions between segments are not counted in it
+  /// Transitions between segments are not counted in it. 0: no limit; a segment then ends by its
+  /// views, or when its planner is done, or when nothing comes of it any more
+  /// (segment/segment_course.h).
+  double segment_time_s = 60.0;
   std::string protocol;  ///< name of the rules it is run by (config/protocols.h); empty: own
   int max_views = 0;     ///< a segment ends after so many views; 0: as many as there is time
   bool leave_when_done = false;  ///< a segment ends when its planner says so (Decision::done)

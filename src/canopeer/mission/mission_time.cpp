@@ -27,6 +27,10 @@ double fastest_transition_s(const RobotModel& robot, const SegmentPlan& from,
          fastest_drive_s(robot.lift_axis(), std::abs(to.trolley.lift_m - last.lift_m));
 }
 
+double own_time_s(const SegmentPlan& segment, const MissionOptions& mission) {
+  return segment.time_s > 0.0 ? segment.time_s : mission.segment_time_s;
+}
+
 /// When each segment is over when all transitions are as fast as can be.
 std::vector<double> earliest_ends_s(const RobotModel& robot, const MissionOptions& mission) {
   std::vector<double> ends;
@@ -34,7 +38,7 @@ std::vector<double> earliest_ends_s(const RobotModel& robot, const MissionOption
   for (std::size_t i = 0; i < mission.segments.size(); ++i) {
     const SegmentPlan& segment = mission.segments[i];
     if (i > 0) t_s += fastest_transition_s(robot, mission.segments[i - 1], segment);
-    t_s += segment.time_s > 0.0 ? segment.time_s : mission.segment_time_s;
+    t_s += own_time_s(segment, mission);
     ends.push_back(t_s);
   }
   return ends;
@@ -54,6 +58,19 @@ std::vector<double> segment_deadlines_s(const RobotModel& robot, const MissionOp
   for (double& t_s : deadlines) t_s *= scale;
   deadlines.back() = mission.mission_time_s;
   return deadlines;
+}
+
+double shared_time_s(const RobotModel& robot, const MissionOptions& mission, int index,
+                     double t_s) {
+  const auto first = static_cast<std::size_t>(index);
+  double left_s = mission.mission_time_s - t_s;
+  double own_s = 0.0;
+  for (std::size_t i = first; i < mission.segments.size(); ++i) {
+    const SegmentPlan& segment = mission.segments[i];
+    if (i > first) left_s -= fastest_transition_s(robot, mission.segments[i - 1], segment);
+    own_s += own_time_s(segment, mission);
+  }
+  return left_s * own_time_s(mission.segments[first], mission) / own_s;
 }
 
 }  // namespace canopeer

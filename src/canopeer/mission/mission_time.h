@@ -22,4 +22,10 @@ namespace canopeer {
 [[nodiscard]] std::vector<double> segment_deadlines_s(const RobotModel& robot,
                                                       const MissionOptions& mission);
 
+/// What segment `index` gets when it begins at `t_s` and the row has one budget
+/// (MissionOptions::shares_time): its share of what is left behind the fastest transitions to come,
+/// s; of the last segment all of it. Not above 0: nothing is left.
+[[nodiscard]] double shared_time_s(const RobotModel& robot, const MissionOptions& mission,
+                                   int index, double t_s);
+
 }  // namespace canopeer

@@ -43,12 +43,16 @@ struct Line {
   }
   Expected<void> operator()(const WorkDone& e) {
     record.work = e.work;  // sums: the last ones are written
+    record.time = e.time;
     return {};
   }
   Expected<void> operator()(const RunEnded& e) {
     record.end_s = e.end_s;
     record.interrupted = e.interrupted;
     if (auto ok = writer.set_work(record.work); !ok) return ok;
+    if (record.time) {
+      if (auto ok = writer.set_time(*record.time); !ok) return ok;
+    }
     return writer.finish(e.end_s, e.interrupted);
   }
   template <typename Other>

@@ -14,7 +14,7 @@ std::tuple<double, double> place(const TrolleyState& state) {
 }  // namespace
 
 std::vector<SegmentPlan> segments_along_row(const std::vector<SegmentPlan>& segments,
-                                            double segment_time_s) {
+                                            double segment_time_s, int max_views) {
   std::vector<SegmentPlan> sides;
   for (const SegmentPlan& segment : segments) {
     auto side = std::find_if(sides.begin(), sides.end(),
@@ -25,6 +25,7 @@ std::vector<SegmentPlan> segments_along_row(const std::vector<SegmentPlan>& segm
       side->name = "row, side " + std::to_string(segment.side);
     }
     side->time_s += segment.time_s > 0.0 ? segment.time_s : segment_time_s;
+    side->max_views += max_views;
     side->row.push_back(segment.trolley);
   }
   for (SegmentPlan& side : sides) {

@@ -3,6 +3,9 @@
 #include <string>
 #include <utility>
 
+#include "canopeer/planner/gomvp/gomvp_finder.h"
+#include "canopeer/planner/nbs/nbs_planner.h"
+#include "canopeer/planner/nbv/nbv_planner.h"
 #include "canopeer/planner/vmp_released/vmp_released.h"
 
 namespace canopeer {
@@ -14,6 +17,22 @@ PlannerRegistry PlannerRegistry::built_in() {
           [](const PlannerOptions& o) { return std::make_unique<VmpPlanner>(o.vmp); });
   all.put("vmp_released", "the same as its published code behaves",
           [](const PlannerOptions& o) { return make_vmp_released(o.vmp); });
+  all.put("gomvp_recon",
+          "the least motion that sees all targets (GO-VMP, Jose et al. 2025), reconstructed",
+          [](const PlannerOptions& o) {
+            return make_gomvp(o.vmp, o.gomvp, InspectionProblem::Objective::cover);
+          });
+  all.put("gomvp_t", "the same within the time left: what sees most (coverage orienteering)",
+          [](const PlannerOptions& o) {
+            return make_gomvp(o.vmp, o.gomvp, InspectionProblem::Objective::orienteering);
+          });
+  all.put("nbs", "node-wise beam search in the graph of vmp (after Qu et al. 2026)",
+          [](const PlannerOptions& o) { return make_nbs(o.nbs, o.vmp); });
+  all.put("nbv", "the next best view by a published gain (Cuaran et al. 2024)",
+          [](const PlannerOptions& o) {
+            return std::make_unique<NbvPlanner>(o.nbv, o.vmp.builder.shares, o.vmp.builder.sampler,
+                                                o.vmp.path_search.fan);
+          });
   all.put("rvp", "the next best view around regions of interest (Zaenker et al. 2021)",
           [](const PlannerOptions& o) { return std::make_unique<RvpPlanner>(o.rvp); });
   all.put("random", "reachable views at random",
@@ -24,7 +43,10 @@ PlannerRegistry PlannerRegistry::built_in() {
           [](const PlannerOptions& o) { return std::make_unique<SweepPlanner>(o.sweep); });
   all.put("drive_by", "the arm parked, the trolley drives along the row",
           [](const PlannerOptions& o) { return std::make_unique<DriveByPlanner>(o.drive_by); });
-  all.manners_ = {{"sweep", {false, true}}, {"drive_by", {true, true}}};
+  all.put("playback", "the views of a plan that a file holds",
+          [](const PlannerOptions& o) { return make_playback(o.playback); });
+  all.manners_ = {{"sweep", {.keeps_sharp = true}},
+                  {"drive_by", {.drives_along_row = true, .keeps_sharp = true}}};
   return all;
 }
 

@@ -10,7 +10,11 @@
 #include "canopeer/base/named_factories.h"
 #include "canopeer/planner/coverage/coverage_planner.h"
 #include "canopeer/planner/drive_by/drive_by_planner.h"
+#include "canopeer/planner/gomvp/gomvp_options.h"
+#include "canopeer/planner/nbs/nbs_options.h"
+#include "canopeer/planner/nbv/nbv_options.h"
 #include "canopeer/planner/planner.h"
+#include "canopeer/planner/playback/playback_planner.h"
 #include "canopeer/planner/random/random_planner.h"
 #include "canopeer/planner/rvp/rvp_planner.h"
 #include "canopeer/planner/sweep/sweep_planner.h"
@@ -25,16 +29,22 @@ struct PlannerManners {
   bool drives_along_row = false;
   /// Frames on the way are all it lives by: by default it moves no faster than they stay sharp.
   bool keeps_sharp = false;
+  /// It is told what is really there, which only a simulation knows: a yardstick, no rival.
+  bool knows_truth = false;
 };
 
 /// The options of every planner; a run uses those of the one it names.
 struct PlannerOptions {
   VmpOptions vmp;  ///< vmp_released too, where the published code does not depart from the paper
+  NbsOptions nbs;  ///< with the graph, rays and times of `vmp`
+  NbvOptions nbv;  ///< with the view sampling and rays of `vmp`
   RvpOptions rvp;
   RandomOptions random;
   CoverageOptions coverage;
   SweepOptions sweep;
   DriveByOptions drive_by;
+  PlaybackOptions playback;
+  GomvpOptions gomvp;  ///< gomvp_recon and gomvp_t, on the graph of `vmp`
   /// Of planners registered from outside, as the mission's section `own_planner` has them.
   std::map<std::string, std::string> own;
 };

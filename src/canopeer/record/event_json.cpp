@@ -63,6 +63,8 @@ Json from(const RunHeader& header) {
                {"segment_time_s", header.segment_time_s},
                {"settings", std::move(settings)}};
   if (header.mission_time_s > 0.0) json["mission_time_s"] = header.mission_time_s;
+  if (!header.protocol.empty()) json["protocol"] = header.protocol;
+  if (header.views_planned > 0) json["views_planned"] = header.views_planned;
   return json;
 }
 
@@ -76,6 +78,8 @@ RunHeader to_header(const Json& json) {
   header.segments = json.at("segments").get<int>();
   header.segment_time_s = to_number(json.at("segment_time_s"));
   if (json.contains("mission_time_s")) header.mission_time_s = to_number(json["mission_time_s"]);
+  header.protocol = json.value("protocol", header.protocol);
+  header.views_planned = json.value("views_planned", header.views_planned);
   const Json& settings = json.at("settings");
   header.settings_json = settings.is_string() ? settings.get<std::string>() : settings.dump();
   return header;
@@ -143,22 +147,24 @@ Json from(const ViewEvent& view) {
   Json fruits = Json::array();
   for (const FruitSnapshot& fruit : view.fruits) fruits.push_back(from(fruit));
   Json pixels = from(view.pixels);
-  return {{"segment", view.segment},
-          {"view", view.view},
-          {"t_s", view.t_s},
-          {"planning_s", view.planning_s},
-          {"motion_s", view.motion_s},
-          {"q", view.q},
-          {"T_world_camera", from(view.T_world_camera)},
-          {"target_kind", view.target_kind},
-          {"predicted_gain", view.predicted_gain ? Json(*view.predicted_gain) : Json(nullptr)},
-          {"realised_gain", view.realised_gain},
-          {"fused_points", view.fused_points},
-          {"roi_voxels", view.roi_voxels},
-          {"pixels", std::move(pixels)},
-          {"graph_nodes", view.graph_nodes},
-          {"graph_edges", view.graph_edges},
-          {"fruits", std::move(fruits)}};
+  Json json = {{"segment", view.segment},
+               {"view", view.view},
+               {"t_s", view.t_s},
+               {"planning_s", view.planning_s},
+               {"motion_s", view.motion_s},
+               {"q", view.q},
+               {"T_world_camera", from(view.T_world_camera)},
+               {"target_kind", view.target_kind},
+               {"predicted_gain", view.predicted_gain ? Json(*view.predicted_gain) : Json(nullptr)},
+               {"realised_gain", view.realised_gain},
+               {"fused_points", view.fused_points},
+               {"roi_voxels", view.roi_voxels},
+               {"pixels", std::move(pixels)},
+               {"graph_nodes", view.graph_nodes},
+               {"graph_edges", view.graph_edges},
+               {"fruits", std::move(fruits)}};
+  if (view.realised_in_fan) json["realised_in_fan"] = *view.realised_in_fan;
+  return json;
 }
 
 ViewEvent to_view(const Json& json) {
@@ -180,6 +186,9 @@ ViewEvent to_view(const Json& json) {
   view.graph_edges = json.at("graph_edges").get<int>();
   for (const Json& fruit : json.at("fruits")) view.fruits.push_back(to_fruit(fruit));
   view.pixels = to_pixels(json);
+  if (const auto gain = json.find("realised_in_fan"); gain != json.end()) {
+    view.realised_in_fan = gain->get<std::int64_t>();
+  }
   return view;
 }
 
@@ -242,6 +251,7 @@ Json from(const MotionEvent& motion) {
                       {"alike", frames->alike},
                       {"unread", frames->unread}};
   }
+  if (motion.camera_path_m) json["camera_path_m"] = *motion.camera_path_m;
   return json;
 }
 
@@ -264,6 +274,7 @@ MotionEvent to_motion(const Json& json) {
                                 frames->at("blurred").get<int>(), frames->at("alike").get<int>(),
                                 frames->at("unread").get<int>()};
   }
+  if (json.contains("camera_path_m")) motion.camera_path_m = to_number(json.at("camera_path_m"));
   return motion;
 }
 
@@ -302,6 +313,20 @@ std::vector<WorkItem> to_work(const Json& json) {
                     to_number(item.at("seconds"))});
   }
   return work;
+}
+
+Json from(const TimeSplit& time) {
+  return {{"mapping_s", time.mapping_s},
+          {"planning_s", time.planning_s},
+          {"execution_s", time.execution_s},
+          {"waiting_s", time.waiting_s},
+          {"transitions_s", time.transitions_s}};
+}
+
+TimeSplit to_time(const Json& json) {
+  return {to_number(json.at("mapping_s")), to_number(json.at("planning_s")),
+          to_number(json.at("execution_s")), to_number(json.at("waiting_s")),
+          to_number(json.at("transitions_s"))};
 }
 
 std::string reason(const std::exception& exception) {

@@ -25,6 +25,7 @@ Json from(const MotionEvent& motion);
 Json from(const SteeringEvent& steering);
 Json from(const FaultEvent& fault);
 Json from(const std::vector<WorkItem>& work);
+Json from(const TimeSplit& time);
 
 RunHeader to_header(const Json& json);
 SegmentEvent to_segment(const Json& json);
@@ -34,6 +35,7 @@ MotionEvent to_motion(const Json& json);
 SteeringEvent to_steering(const Json& json);
 FaultEvent to_fault(const Json& json);
 std::vector<WorkItem> to_work(const Json& json);
+TimeSplit to_time(const Json& json);
 
 /// null stands for a number that was not finite.
 double to_number(const Json& json);

@@ -41,6 +41,8 @@ class RecordWriter {
   [[nodiscard]] Expected<void> add(const FaultEvent& fault);
   /// Sums from the start of the run; a later call replaces an earlier one.
   [[nodiscard]] Expected<void> set_work(const std::vector<WorkItem>& work);
+  /// Where the time went until now; a later call replaces an earlier one.
+  [[nodiscard]] Expected<void> set_time(const TimeSplit& time);
   /// The last line. A record without it reads as interrupted.
   [[nodiscard]] Expected<void> finish(double end_s, bool interrupted);
 

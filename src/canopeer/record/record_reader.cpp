@@ -33,6 +33,7 @@ class RecordReader {
     if (kind == "steering") record_.steering.push_back(event_json::to_steering(body));
     if (kind == "fault") record_.faults.push_back(event_json::to_fault(body));
     if (kind == "work") record_.work = event_json::to_work(body);
+    if (kind == "time") record_.time = event_json::to_time(body);
     if (kind == "end") end(body);
   }
 

@@ -110,6 +110,10 @@ Expected<void> RecordWriter::set_work(const std::vector<WorkItem>& work) {
   return file_->line({{"work", event_json::from(work)}});
 }
 
+Expected<void> RecordWriter::set_time(const TimeSplit& time) {
+  return file_->line({{"time", event_json::from(time)}});
+}
+
 Expected<void> RecordWriter::finish(double end_s, bool interrupted) {
   return file_->line({{"end", {{"end_s", end_s}, {"interrupted", interrupted}}}});
 }

@@ -16,10 +16,17 @@ struct RunHeader {
   std::string planner;
   std::uint64_t seed = 1;
   std::string compute_table;
-  int segments = 0;  ///< planned
-  double segment_time_s = 60.0;
-  double mission_time_s = 0.0;  ///< by a clock that never stops; 0: each segment has its own
-  std::string settings_json;    ///< every effective option, as a JSON object in text
+  int segments = 0;              ///< planned
+  double segment_time_s = 60.0;  ///< 0: no limit
+  double mission_time_s = 0.0;   ///< by a clock that never stops; 0: each segment has its own
+  std::string settings_json;     ///< every effective option, as a JSON object in text
+  std::string protocol{};        ///< name of the rules; empty: the mission's own
+  int views_planned = 0;  ///< of all segments together, by a rule; 0: as many as there is time
+
+  /// A segment ends by another rule than time.
+  [[nodiscard]] bool without_time_limit() const {
+    return segment_time_s <= 0.0 && mission_time_s <= 0.0;
+  }
 };
 
 /// A segment of a mission: from when to when, and where it looks.
@@ -75,6 +82,9 @@ struct ViewEvent {
   int graph_nodes = 0;
   int graph_edges = 0;
   std::vector<FruitSnapshot> fruits;  ///< all fruits known after the frame
+  /// Of the unknown voxels that the planner's rays (PathSearchOptions::fan) crossed from here just
+  /// before the frame, those that are known after it; nothing where no gain was predicted.
+  std::optional<std::int64_t> realised_in_fan{};
 };
 
 /// What became of frames that came on the way.
@@ -118,7 +128,8 @@ struct MotionEvent {
                                   ///< "stopped", "withheld"
   std::string why;                ///< in words
   std::vector<double> trolley{};  ///< of a drive: travel and lift where it ended, m
-  std::optional<FrameCounts> frames{};  ///< on the way; nothing: none were wanted
+  std::optional<FrameCounts> frames{};    ///< on the way; nothing: none were wanted
+  std::optional<double> camera_path_m{};  ///< how far the camera moved; nothing: not recorded
 };
 
 /// Sum of work done, e.g. {"candidates", 12345, 1.2}: count and simulated seconds charged for it.
@@ -126,6 +137,20 @@ struct WorkItem {
   std::string name;
   std::int64_t count = 0;
   double seconds = 0.0;
+};
+
+/// Where a mission's time went, s: all of it, nothing twice.
+struct TimeSplit {
+  double mapping_s = 0.0;      ///< standing still while frames are taken in
+  double planning_s = 0.0;     ///< standing still while the planner decides
+  double execution_s = 0.0;    ///< motions within segments; one under way at the end counts whole
+  double waiting_s = 0.0;      ///< the planner had nothing to go for
+  double transitions_s = 0.0;  ///< between segments: ways home, drives
+
+  template <typename Archive>
+  void serialize(Archive& archive) {
+    archive(mapping_s, planning_s, execution_s, waiting_s, transitions_s);
+  }
 };
 
 /// What somebody told the mission to do.
@@ -153,6 +178,7 @@ struct RunRecord {
   std::vector<SteeringEvent> steering;
   std::vector<FaultEvent> faults;
   std::vector<WorkItem> work;
+  std::optional<TimeSplit> time{};  ///< nothing: not recorded, or the run was killed
   double end_s = 0.0;
   bool interrupted = false;
 };

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "canopeer/base/atomic_file.h"
+#include "canopeer/base/rank_correlation.h"
 #include "canopeer/record/event_json.h"
 #include "canopeer/record/fruit_course.h"
 
@@ -66,6 +67,23 @@ void for_each_field(AnySummary& summary, Visit&& visit) {
   visit("time_offset_se_s", summary.time_offset_se_s);
   visit("hand_eye_translation_m", summary.hand_eye_translation_m);
   visit("hand_eye_rotation_rad", summary.hand_eye_rotation_rad);
+  visit("protocol", summary.protocol);
+  visit("auc_views", summary.auc_views);
+  visit("count_accuracy_pct", summary.count_accuracy_pct);
+  visit("volume_ratio_pct", summary.volume_ratio_pct);
+  visit("camera_path_length_m", summary.camera_path_length_m);
+  visit("time", summary.time);
+  visit("gain_correlation_same_space", summary.gain_correlation_same_space);
+  visit("ceiling_fruits_share", summary.ceiling_fruits_share);
+  visit("ceiling_surface_share", summary.ceiling_surface_share);
+  visit("clairvoyant_found_share", summary.clairvoyant_found_share);
+  visit("clairvoyant_auc_share", summary.clairvoyant_auc_share);
+  visit("best_found_share", summary.best_found_share);
+  visit("best_auc_share", summary.best_auc_share);
+  visit("sampled_found_gap", summary.sampled_found_gap);
+  visit("sampled_auc_gap", summary.sampled_auc_gap);
+  visit("certified_found_gap", summary.certified_found_gap);
+  visit("certified_auc_gap", summary.certified_auc_gap);
 }
 
 template <typename T>
@@ -76,6 +94,10 @@ Json json_of(const T& value) {
 template <typename T>
 Json json_of(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
+}
+
+Json json_of(const std::optional<TimeSplit>& time) {
+  return time ? event_json::from(*time) : Json(nullptr);
 }
 
 template <typename T>
@@ -91,6 +113,12 @@ void read_into(const Json& json, const char* key, std::optional<T>& value) {
   } else {
     value = found->get<T>();
   }
+}
+
+void read_into(const Json& json, const char* key, std::optional<TimeSplit>& time) {
+  time.reset();
+  const auto found = json.find(key);
+  if (found != json.end() && !found->is_null()) time = event_json::to_time(*found);
 }
 
 }  // namespace
@@ -121,6 +149,10 @@ void add_up_motions(const RunRecord& record, RunScores& scores) {
     scores.motion_time_s += motion.duration_s;
     scores.collisions += motion.collision;
     scores.plant_contacts += motion.plant_contact;
+    if (motion.camera_path_m) {
+      scores.camera_path_length_m =
+          scores.camera_path_length_m.value_or(0.0) + *motion.camera_path_m;
+    }
     if (!motion.frames) continue;
     const auto count = [](std::optional<int>& sum, int more) { sum = sum.value_or(0) + more; };
     count(scores.frames_fused, motion.frames->fused);
@@ -130,6 +162,18 @@ void add_up_motions(const RunRecord& record, RunScores& scores) {
     count(scores.frames_unread, motion.frames->unread);
   }
   for (const ViewEvent& view : record.views) scores.planning_time_s += view.planning_s;
+}
+
+/// Whether views that promised more brought more, counted over the same space.
+void compare_gains(const RunRecord& record, RunScores& scores) {
+  std::vector<double> predicted;
+  std::vector<double> realised;
+  for (const ViewEvent& view : record.views) {
+    if (!view.predicted_gain || !view.realised_in_fan) continue;
+    predicted.push_back(*view.predicted_gain);
+    realised.push_back(static_cast<double>(*view.realised_in_fan));
+  }
+  scores.gain_correlation_same_space = rank_correlation(predicted, realised);
 }
 
 }  // namespace
@@ -153,6 +197,9 @@ Summary summary_of(const RunRecord& record) {
   }
   score_pixels(record, s);
   add_up_motions(record, s);
+  compare_gains(record, s);
+  s.time = record.time;
+  if (!header.protocol.empty()) s.protocol = header.protocol;
   return s;
 }
 

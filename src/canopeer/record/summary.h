@@ -25,7 +25,8 @@ struct RunScores {
   std::optional<double> time_to_50pct_s;
   std::optional<double> time_to_80pct_s;
   std::optional<double> time_to_90pct_s;
-  /// Mean of detected / fruits_total over the mission time; 0 without fruits.
+  /// Mean of detected / fruits_total over the mission time; 0 without fruits. Null where a segment
+  /// has no time limit: its end would be the planner's choice.
   std::optional<double> auc;
   std::optional<double> roi_surface_coverage;  ///< share of the counted fruits' surface seen
   std::optional<double> surface_precision;     ///< of fruits.ply against the true fruits, 0.015 m
@@ -59,6 +60,35 @@ struct RunScores {
   double planning_time_s = 0.0;        ///< standing still before views
   int collisions = 0;                  ///< motions with one
   int plant_contacts = 0;              ///< motions that touched a plant not yet seen
+
+  /// Mean of detected / fruits_total over the views a rule gives (RunHeader::views_planned): what
+  /// a segment leaves of its views keeps its last count. Null without such a rule.
+  std::optional<double> auc_views;
+  /// 100 (1 − |n − fruits_total| / fruits_total), n = detected + false_positives: how right the
+  /// count is, whichever fruits they are. Fruits reported that do not count (green ones) are left
+  /// out. Below 0 when n is more than twice as many.
+  std::optional<double> count_accuracy_pct;
+  /// 100 Σ V / Σ V* over the `detected` pairs: 100 is best. Fruits not found are in neither sum.
+  std::optional<double> volume_ratio_pct;
+  std::optional<double> camera_path_length_m;  ///< of all motions, drives included
+  std::optional<TimeSplit> time;               ///< where the mission's time went
+  /// Spearman's rank correlation of predicted gain and of what was realised of it in the same space
+  /// (ViewEvent::realised_in_fan), over the views with a prediction.
+  std::optional<double> gain_correlation_same_space;
+
+  // Against a yardstick (yardstick.h); null: none was given, or it does not tell. A share is above
+  // 1 where the run is better than that; all but the certified gap may be so.
+  std::optional<double> ceiling_fruits_share;   ///< detected / fruits that can be seen at all
+  std::optional<double> ceiling_surface_share;  ///< seen of the surface any reachable view can show
+  std::optional<double> clairvoyant_found_share;
+  std::optional<double> clairvoyant_auc_share;
+  std::optional<double> best_found_share;  ///< of the best known
+  std::optional<double> best_auc_share;
+  // (bound − result) / bound: 0 when nothing more is possible.
+  std::optional<double> sampled_found_gap;
+  std::optional<double> sampled_auc_gap;
+  std::optional<double> certified_found_gap;
+  std::optional<double> certified_auc_gap;
 };
 
 /// The figures of one run, as `summary.json` holds them, its scores behind the rest. All but
@@ -85,6 +115,7 @@ struct Summary : RunScores {
   std::optional<double> time_offset_se_s;  ///< standard error of it
   std::optional<double> hand_eye_translation_m;  ///< of the camera beside its said place
   std::optional<double> hand_eye_rotation_rad;
+  std::optional<std::string> protocol;  ///< name of the rules; null: the mission's own
 };
 
 /// What the record alone tells: all but the scores against the truth, and the wall time.

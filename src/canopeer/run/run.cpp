@@ -2,6 +2,7 @@
 
 #include <oneapi/tbb/global_control.h>
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "canopeer/config/robot_file.h"
 #include "canopeer/mission/record_keeper.h"
 #include "canopeer/mission/steering_desk.h"
+#include "canopeer/record/yardstick_shares.h"
 #include "canopeer/run/frame_check.h"
 #include "canopeer/run/run_results.h"
 
@@ -31,6 +33,10 @@ RunHeader header_of(const MissionFile& file) {
   header.segment_time_s = file.mission.segment_time_s;
   header.mission_time_s = file.mission.mission_time_s;
   header.settings_json = file.settings_json;
+  header.protocol = file.mission.protocol;
+  for (const SegmentPlan& segment : file.mission.segments) {
+    header.views_planned += segment.max_views > 0 ? segment.max_views : file.mission.max_views;
+  }
   return header;
 }
 
@@ -90,6 +96,7 @@ struct Run::State {
   std::function<void(const std::string& text)> on_message;
   std::optional<RecordKeeper> record;
   std::optional<FrameCheck> frame_check;
+  std::optional<Yardstick> yardstick;
   SteeringTogether together;  // outlives the mission
   bool steered = false;
   Mission mission;
@@ -132,6 +139,19 @@ void Run::watch(std::shared_ptr<Watcher> watcher, const WatchOptions& options) {
 }
 void Run::keep(Keeper& keeper) { state_->mission.keep(keeper); }
 void Run::steer(Steering& steering) { state_->steer(steering); }
+Expected<void> Run::hold_against(Yardstick yardstick) {
+  const MissionFile& f = file();
+  std::optional<std::uint64_t> world_seed;
+  if (!f.world.imported()) world_seed = f.mission.seed;
+  std::optional<int> fruits;
+  if (const Scene* const truth = state_->stage->site().truth()) {
+    fruits = static_cast<int>(std::count_if(truth->fruits.begin(), truth->fruits.end(),
+                                            [](const FruitTruth& fruit) { return fruit.counted; }));
+  }
+  const auto fits = check_fits(yardstick, f.mission.name, f.mission.protocol, world_seed, fruits);
+  if (fits) state_->yardstick = std::move(yardstick);
+  return fits;
+}
 const Expected<void>& Run::outcome() const { return state_->outcome; }
 bool Run::interrupted() const { return state_->record && state_->record->record().interrupted; }
 const fs::path& Run::out() const { return state_->out; }
@@ -201,8 +221,8 @@ Expected<Summary> Run::finish() {
   if (auto ended = s.mission.end(); !ended && s.outcome) s.outcome = std::move(ended);
   const auto agreement = s.check_frames();
   const std::chrono::duration<double> wall = SteadyClock::now() - s.begun;
-  return write_results(s.out, s.record->record(), s.mission, s.stage->site().truth(), agreement,
-                       wall.count());
+  return write_results(s.out, s.record->record(), s.mission, s.stage->site().truth(),
+                       s.yardstick ? &*s.yardstick : nullptr, agreement, wall.count());
 }
 
 Expected<RunState> Run::state() const {

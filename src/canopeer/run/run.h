@@ -5,6 +5,7 @@
 
 #include "canopeer/mission/mission.h"
 #include "canopeer/record/summary.h"
+#include "canopeer/record/yardstick.h"
 #include "canopeer/run/run_state.h"
 #include "canopeer/run/stage.h"
 
@@ -32,6 +33,9 @@ class Run {
   void watch(std::shared_ptr<Watcher> watcher, const WatchOptions& options = {});
   void keep(Keeper& keeper);
   void steer(Steering& steering);
+  /// Results are given as shares of this too. Before finish(). The error: it is of another mission,
+  /// protocol or world.
+  [[nodiscard]] Expected<void> hold_against(Yardstick yardstick);
 
   /// begin(), every step, finish(). The error is what ended the run early, or about writing;
   /// results so far are written all the same.

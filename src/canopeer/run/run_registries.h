@@ -1,5 +1,6 @@
 #pragma once
 
+#include "canopeer/bounds/truth_planners.h"
 #include "canopeer/mission/registries.h"
 #include "canopeer/run/site.h"
 
@@ -9,8 +10,12 @@ namespace canopeer {
 struct RunRegistries : Registries {
   SiteRegistry sites = SiteRegistry::built_in();
 
-  /// Those of this library; add your own.
-  [[nodiscard]] static RunRegistries built_in() { return {Registries::built_in()}; }
+  /// Those of this library, with the planners that know the truth; add your own.
+  [[nodiscard]] static RunRegistries built_in() {
+    RunRegistries all{Registries::built_in()};
+    add_truth_planners(all.planners);
+    return all;
+  }
 };
 
 }  // namespace canopeer

@@ -11,6 +11,7 @@
 #include "canopeer/fruit/surface_files.h"
 #include "canopeer/map/octomap_file.h"
 #include "canopeer/record/timeline_csv.h"
+#include "canopeer/record/yardstick_shares.h"
 #include "canopeer/render/overview.h"
 #include "canopeer/report/report.h"
 #include "canopeer/scene/ground_truth_csv.h"
@@ -81,6 +82,7 @@ void add_agreement(const FrameAgreement& agreement, Summary& summary) {
 
 Expected<Summary> write_results(const fs::path& out, const RunRecord& record,
                                 const Mission& mission, const Scene* truth,
+                                const Yardstick* yardstick,
                                 const std::optional<FrameAgreement>& agreement,
                                 double wall_time_s) {
   Writing write;
@@ -92,6 +94,7 @@ Expected<Summary> write_results(const fs::path& out, const RunRecord& record,
     write_truth(out, *truth, write);
     static_cast<RunScores&>(summary) = scores_of(record, mission, *truth);
   }
+  if (yardstick != nullptr) hold_against(*yardstick, summary);
   if (agreement) add_agreement(*agreement, summary);
   summary.wall_time_s = wall_time_s;
   write(write_summary(out / "summary.json", summary));

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "canopeer/base/exact_text.h"
+#include "canopeer/bounds/truth_planners.h"
 #include "canopeer/config/robot_file.h"
 #include "canopeer/mission/mission_time.h"
 #include "canopeer/mission/row_segments.h"
@@ -75,7 +76,11 @@ Expected<void> check(const MissionFile& file, const RobotModel& robot,
   if (auto ok = check_known_free(file, robot); !ok) return ok;
   const auto detector = registries.detectors.make(file.mission.detector);
   if (!detector) return tl::unexpected(detector.error());
-  const auto planner = registries.planners.make(file.mission.planner, file.mission.planners);
+  return {};
+}
+
+Expected<void> check_planner(const MissionOptions& mission, const PlannerRegistry& planners) {
+  const auto planner = planners.make(mission.planner, mission.planners);
   if (!planner) return tl::unexpected(planner.error());
   return {};
 }
@@ -109,13 +114,22 @@ Expected<std::unique_ptr<Stage>> Stage::make(MissionFile file, const StageReques
   if (manners.arm_speed) robot->slow_down(manners.arm_speed(file));
   auto ik = ArmIk::make(*robot);
   if (!ik) return tl::unexpected(ik.error());
+  file.mission.planners.playback.fit =
+      PlanFit{static_cast<int>(file.mission.segments.size()), robot->limits()};
   if (auto ok = check(file, *robot, registries); !ok) return tl::unexpected(ok.error());
   MissionOptions& mission = file.mission;
+  const PlannerManners planner = registries.planners.manners(mission.planner);
+  if (!planner.knows_truth) {  // before a large world is built
+    if (auto ok = check_planner(mission, registries.planners); !ok) {
+      return tl::unexpected(ok.error());
+    }
+  }
   if (mission.clock == MissionClock::whole) {
     mission.mission_time_s = whole_mission_time_s(*robot, mission);
   }
-  if (registries.planners.manners(mission.planner).drives_along_row) {
-    mission.segments = segments_along_row(mission.segments, mission.segment_time_s);
+  if (planner.drives_along_row) {
+    mission.segments =
+        segments_along_row(mission.segments, mission.segment_time_s, mission.max_views);
   }
   std::unique_ptr<Stage> stage(
       new Stage(std::move(file), std::move(*robot), std::move(*ik), registries));
@@ -125,6 +139,13 @@ Expected<std::unique_ptr<Stage>> Stage::make(MissionFile file, const StageReques
     return tl::unexpected(ok.error());
   }
   stage->site_ = std::move(*site);
+  if (planner.knows_truth) {
+    PlannerOptions& told = stage->file_.mission.planners;
+    if (const Scene* truth = stage->site_->truth()) tell_truth(*truth, told);
+    if (auto ok = check_planner(stage->file_.mission, registries.planners); !ok) {
+      return fail_in("site '" + request.site + "'", ok.error());
+    }
+  }
   return stage;
 }
 

@@ -45,7 +45,7 @@ ViewPath search_path(ViewGraph& graph, NodeId start, const VoxelMap& map,
     if (tree.views(id) >= options.max_views) continue;
 
     const auto neighbors = unvisited_neighbors(graph, id);
-    ensure_casts(graph, neighbors, map, options.fan, work);
+    ensure_casts(graph, neighbors, map, options.fan, work, options.cast);
     tree.expand(id);  // C(n)
     work.add(Work::expansion, static_cast<std::int64_t>(neighbors.size()));
     for (const NodeId next : neighbors) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "canopeer/base/compute_cost.h"
+#include "canopeer/search/view_casts.h"
 #include "canopeer/search/view_path.h"
 
 namespace canopeer {
@@ -10,6 +11,8 @@ struct PathSearchOptions {
   /// Rays of one view's visible set. They end after 0.3 m of unknown space: farther behind leaves
   /// not mapped yet, a ray counts what it will hardly see.
   ViewFan fan = {.max_unknown_m = 0.3};
+  /// Stands for cast_view() with that fan, to see what a better gain would be worth; empty: none.
+  CastFunction cast{};
   double observe_s = 0.2;   ///< standing still at each view, part of the path's execution time L
   int max_expansions = 60;  ///< nodes taken from the queue; the rest stays unexplored
   int max_views = 12;       ///< longest path looked at; far beyond the look-ahead nothing is gained

@@ -214,6 +214,27 @@ class Bench {
     });
   }
 
+  /// What a plan takes beyond all other kinds of work in it.
+  void measure_programs(CostTable& costs) {
+    double best_s = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < kRepetitions; ++i) {
+      const auto planner = PlannerRegistry::built_in().make("gomvp_recon", mission_.planners);
+      CANOPEER_CHECK(planner.has_value(), "a planner of this library");
+      (*planner)->begin_segment(planning_scene(costs));
+      (*planner)->map_changed({{}, extract_frontiers(map(), frame_.sampling_region_world), {}});
+      WorkMeter others;
+      for (int k = 0; k < 100 && (*planner)->status().graph_nodes < kGraphNodes / 2; ++k)
+        (*planner)->grow(0.1, others);
+      WorkMeter work;
+      const double begin_s = cpu_now_s();
+      static_cast<void>((*planner)->decide(home_, work));
+      const double spent_s = cpu_now_s() - begin_s - work.seconds(costs);
+      const auto units = static_cast<double>(work.units(Work::simplex_row));
+      if (units > 0) best_s = std::min(best_s, std::max(0.0, spent_s) / units);
+    }
+    costs[Work::simplex_row] = std::isfinite(best_s) ? best_s : 0.0;
+  }
+
  private:
   using FrameCosts = std::array<Spent, kWorkKinds>;
 
@@ -253,6 +274,17 @@ class Bench {
     return spent;
   }
 
+  [[nodiscard]] PlanningScene planning_scene(const CostTable& costs) const {
+    PlanningScene scene;
+    scene.robot = &robot_;
+    scene.ik = &ik_;
+    scene.map = &map();
+    scene.checker = &checker_;
+    scene.judge = &simulation_.judge().checker();
+    scene.costs = &costs;
+    scene.segment = frame_;
+    return scene;
+  }
   RgbdFrame capture(const Configuration& q) {
     const Ports ports = simulation_.ports();
     const auto started = ports.arm->start({{ports.arm->configuration(), q}});
@@ -295,6 +327,8 @@ CostTable measure_costs(const RobotModel& robot, const ArmIk& ik, const Scene& s
   bench.measure_sampling(costs);
   progress("graph: neighbours, collisions, view casts, search");
   bench.measure_search(costs);
+  progress("integer programs");
+  bench.measure_programs(costs);
   return costs;
 }
 

@@ -10,6 +10,7 @@ namespace {
 void join(EventNeeds& all, const EventNeeds& one) {
   all.map |= one.map;
   all.plan |= one.plan;
+  all.surface |= one.surface;
 }
 
 }  // namespace

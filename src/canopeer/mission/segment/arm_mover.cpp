@@ -1,6 +1,7 @@
 #include "canopeer/mission/segment/arm_mover.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -29,6 +30,23 @@ std::vector<Configuration> way_to(const Configuration& q,
                                  waypoints.begin() + static_cast<std::ptrdiff_t>(piece) + 1);
   way.push_back(q);
   return way;
+}
+
+/// How far the camera moves, m, while the arm goes straight from point to point.
+double camera_path_m(const RobotModel& robot, const std::vector<Configuration>& points) {
+  constexpr double kStep = 0.05;  // rad, Σ|Δq| between two places on the way
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const int steps = 1 + static_cast<int>(joint_distance(points[i - 1], points[i]) / kStep);
+    Vec3 at = robot.T_base_camera(points[i - 1]).translation();
+    for (int k = 1; k <= steps; ++k) {
+      const Configuration q = points[i - 1] + (points[i] - points[i - 1]) * k / steps;
+      const Vec3 next = robot.T_base_camera(q).translation();
+      length_m += (next - at).norm();
+      at = next;
+    }
+  }
+  return length_m;
 }
 
 }  // namespace
@@ -61,6 +79,7 @@ Expected<MotionEnd> ArmMover::move(const std::string& kind,
   for (std::size_t i = 1; i < points.size(); ++i) {
     motion.joint_path_rad += joint_distance(points[i - 1], points[i]);
   }
+  motion.camera_path_m = camera_path_m(robot_, points);
   const auto duration = time_.timer().time("arm", [&] { return ports_.arm->start(path); });
   if (!duration) return fail_in("arm", duration.error());
 
@@ -148,6 +167,9 @@ Expected<void> ArmMover::drive(const Trolley::Drive& drive) {
   motion.duration_s = time_.now_s() - motion.start_s;
   const TrolleyState there = ports_.trolley->state();
   motion.trolley = {there.travel_m, there.lift_m};
+  // One axis after the other, the arm at rest.
+  motion.camera_path_m =
+      std::abs(there.travel_m - from.travel_m) + std::abs(there.lift_m - from.lift_m);
   return events_.emit(MotionEnded{std::move(motion)});
 }
 

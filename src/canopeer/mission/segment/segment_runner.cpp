@@ -1,12 +1,16 @@
 #include "canopeer/mission/segment/segment_runner.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
+
+#include "canopeer/mission/mission_time.h"
 
 namespace canopeer {
 namespace {
 
 constexpr double kWaitStep = 0.05;  // s between two questions to a planner that waits
+constexpr int kStuckWaits = 20;     // that many such questions are a second
 constexpr double kAtHome = 0.1;     // rad, Σ|Δq|: more than an arm misses its goal by
 
 /// `trolley`: where it really stands, which may be beside the plan where a person pushes it.
@@ -53,6 +57,8 @@ void SegmentRunner::stand_at(const TrolleyState& trolley) {
 
 Expected<void> SegmentRunner::begin() {
   MissionCursor& cursor = tools_.cursor;
+  tools_.time.book(&TimeSplit::transitions_s);
+  cursor.course.begin(tools_.perception.map().observed_voxels());
   cursor.segment_start_s = cursor.standing_since_s = tools_.time.now_s();
   cursor.last_standing_s = cursor.last_motion_s = 0.0;
   if (auto ok = tools_.events.emit(SegmentBegun{event()}); !ok) return ok;
@@ -106,11 +112,31 @@ PlanningScene SegmentRunner::planning_scene() const {
 
 double SegmentRunner::budget_s() const {
   const auto index = static_cast<std::size_t>(index_);
+  const double began_s = tools_.cursor.segment_start_s - tools_.cursor.held_s;
   if (!tools_.deadlines_s.empty()) {
-    return tools_.deadlines_s[index] + tools_.cursor.held_s - tools_.cursor.segment_start_s;
+    return tools_.options.shares_time
+               ? shared_time_s(tools_.robot.model, tools_.options, index_, began_s)
+               : tools_.deadlines_s[index] - began_s;
   }
   const double own_s = tools_.options.segments[index].time_s;
-  return own_s > 0.0 ? own_s : tools_.options.segment_time_s;
+  const double limit_s = own_s > 0.0 ? own_s : tools_.options.segment_time_s;
+  return limit_s > 0.0 ? limit_s : std::numeric_limits<double>::infinity();
+}
+
+bool SegmentRunner::unlimited() const {
+  return budget_s() == std::numeric_limits<double>::infinity();
+}
+
+int SegmentRunner::max_views() const {
+  const int own = tools_.options.segments[static_cast<std::size_t>(index_)].max_views;
+  return own > 0 ? own : tools_.options.max_views;
+}
+
+bool SegmentRunner::is_over() const {
+  const SegmentCourse& course = tools_.cursor.course;
+  if (time_is_up()) return true;
+  if (max_views() > 0) return course.views() >= max_views();
+  return unlimited() && course.exhausted();
 }
 
 bool SegmentRunner::time_is_up() const {
@@ -126,20 +152,30 @@ Expected<void> SegmentRunner::step() {
   const Decision decision = decide();
   switch (decision.action) {
     case Decision::Action::move:
+      tools_.cursor.course.went_on();
       return take(decision.motion);
     case Decision::Action::wait:
-      tools_.time.pass(kWaitStep);
+      wait_for_planner(1);
       return {};
     case Decision::Action::stuck:
       return recover();
     case Decision::Action::drive:
+      tools_.cursor.course.went_on();
       return drive(decision.drive);
     case Decision::Action::done:
       tools_.cursor.skip = tools_.options.leave_when_done;
-      if (!tools_.cursor.skip) tools_.time.pass(kWaitStep);
+      if (!tools_.cursor.skip) wait_for_planner(1);
       return {};
   }
   return {};
+}
+
+/// Without a time limit not for ever.
+void SegmentRunner::wait_for_planner(int questions) {
+  tools_.cursor.course.waited(questions);
+  if (unlimited() && tools_.cursor.course.waits_for_good()) tools_.cursor.skip = true;
+  tools_.time.pass(questions * kWaitStep);
+  tools_.time.book(&TimeSplit::waiting_s);
 }
 
 Expected<void> SegmentRunner::end() {
@@ -147,7 +183,11 @@ Expected<void> SegmentRunner::end() {
   tools_.frames.plan_with({});
   // One that begins behind its deadline has no time at all.
   const double latest_s = tools_.cursor.segment_start_s + std::max(0.0, budget_s());
-  return tools_.events.emit(SegmentEnded{index_, std::min(tools_.time.now_s(), latest_s)});
+  SegmentEnded ended{index_, std::min(tools_.time.now_s(), latest_s)};
+  if (tools_.events.needs().surface) {
+    ended.surface = std::make_shared<const SurfaceMesh>(tools_.perception.fruits().surface());
+  }
+  return tools_.events.emit(std::move(ended));
 }
 
 Expected<MotionEnd> SegmentRunner::go_home(const Configuration& home) {
@@ -165,7 +205,8 @@ std::shared_ptr<const MapSnapshot> SegmentRunner::snapshot() const {
 Expected<void> SegmentRunner::observe(TargetKind kind, std::optional<std::int64_t> predicted) {
   if (mission_is_over()) return {};
   WorkMeter work;
-  auto look = tools_.camera.look(frame_.sampling_region_world, work, tools_.time.timer());
+  auto look = tools_.camera.look(frame_.sampling_region_world, predicted.has_value(), work,
+                                 tools_.time.timer());
   if (!look) return tl::unexpected(look.error());
   if (auto ok = tell(*look, view_event(*look, kind, predicted)); !ok) return ok;
   MapChange& change = look->seen.change;
@@ -175,6 +216,8 @@ Expected<void> SegmentRunner::observe(TargetKind kind, std::optional<std::int64_
         [&](Planner& planner) { planner.map_changed(std::move(change)); });
   });
   tools_.time.pay(work);
+  tools_.time.book(&TimeSplit::mapping_s);
+  tools_.cursor.course.viewed(tools_.perception.map().observed_voxels());
   return {};
 }
 
@@ -192,6 +235,7 @@ ViewEvent SegmentRunner::view_event(const Look& look, TargetKind kind,
   view.target_kind = target_kind_name(kind);
   if (predicted) view.predicted_gain = static_cast<double>(*predicted);
   view.realised_gain = look.seen.fused.newly_known;
+  view.realised_in_fan = look.realised_in_fan;
   view.fused_points = look.seen.fused.fused_points;
   if (const auto& pixels = look.seen.pixels) {
     view.pixels =
@@ -231,6 +275,7 @@ Decision SegmentRunner::decide() {
         [&](Planner& planner) { return planner.decide(tools_.arm.where(), work); });
   });
   tools_.time.pay(work);
+  tools_.time.book(&TimeSplit::planning_s);
   return decision;
 }
 
@@ -245,6 +290,7 @@ Expected<void> SegmentRunner::take(const ViewMotion& motion) {
   if (auto ok = tools_.events.emit(std::move(planned)); !ok) return ok;
   const auto end = tools_.arm.move("view", motion.waypoints, checker_);
   if (!end) return tl::unexpected(end.error());
+  tools_.time.book(&TimeSplit::execution_s);
   if (*end == MotionEnd::arrived) return observe(motion.kind, motion.predicted_gain);
   // Where it stands is a place as good as another, but twice in a row asks for another way.
   if (tools_.cursor.missed_motions > 1) return recover();
@@ -254,6 +300,7 @@ Expected<void> SegmentRunner::take(const ViewMotion& motion) {
 /// The trolley drives with the arm as it is, and the planner is told where it is now.
 Expected<void> SegmentRunner::drive(const RowDrive& drive) {
   if (auto ok = tools_.arm.drive({drive.goal, drive.max_travel_m_s, true}); !ok) return ok;
+  tools_.time.book(&TimeSplit::execution_s);
   stand_at(tools_.arm.trolley());
   const PlanningScene scene = planning_scene();
   tools_.time.background().alone([&](Planner& planner) { planner.moved(scene); });
@@ -264,10 +311,11 @@ Expected<void> SegmentRunner::drive(const RowDrive& drive) {
 Expected<void> SegmentRunner::recover() {
   const EndlessJoints& endless = tools_.robot.model.endless();
   if (endless.distance(tools_.arm.where(), frame_.home) < kAtHome) {
-    tools_.time.pass(1.0);
+    wait_for_planner(kStuckWaits);
     return {};
   }
   if (auto end = go_home(frame_.home); !end) return tl::unexpected(end.error());
+  tools_.time.book(&TimeSplit::execution_s);
   return observe(TargetKind::none, std::nullopt);
 }
 

@@ -21,12 +21,14 @@ struct SegmentTools {
   Timekeeper& time;
   EventHub& events;
   MissionCursor& cursor;
-  /// When each segment has to be over, mission time, s; empty: each has its own clock.
+  /// When each segment has to be over, mission time, s, the last one with the mission; empty: each
+  /// has its own clock.
   const std::vector<double>& deadlines_s;
 };
 
 /// One segment: the arm stands at its home state, the trolley at its stop. Senses, maps, plans and
-/// acts step by step until the time is up ([Zaenker23], Fig. 2).
+/// acts step by step until the time is up ([Zaenker23], Fig. 2), or by other rules
+/// (MissionOptions) until it is over.
 class SegmentRunner {
  public:
   /// What `tools` points to outlives it.
@@ -45,7 +47,8 @@ class SegmentRunner {
   /// One decision of the planner, and what it leads to: a motion with a frame at its end, a wait, a
   /// move home.
   [[nodiscard]] Expected<void> step();
-  [[nodiscard]] bool time_is_up() const;
+  /// By time or views; without a time limit also when nothing comes of it any more.
+  [[nodiscard]] bool is_over() const;
   /// What is said when it begins.
   [[nodiscard]] SegmentEvent event() const;
   /// A motion under way when the time was up has been finished; its frame belongs to the
@@ -56,7 +59,11 @@ class SegmentRunner {
  private:
   void rest() { tools_.time.background().rest(); }
   void stand_at(const TrolleyState& trolley);
+  /// Infinite: no limit.
   [[nodiscard]] double budget_s() const;
+  [[nodiscard]] bool unlimited() const;
+  [[nodiscard]] int max_views() const;
+  [[nodiscard]] bool time_is_up() const;
   /// What is seen now does not count any more.
   [[nodiscard]] bool mission_is_over() const;
   [[nodiscard]] PlanningScene planning_scene() const;
@@ -66,6 +73,7 @@ class SegmentRunner {
   [[nodiscard]] Expected<void> tell(const Look& look, ViewEvent view);
   [[nodiscard]] Expected<void> take(const ViewMotion& motion);
   [[nodiscard]] Expected<void> drive(const RowDrive& drive);
+  void wait_for_planner(int questions);
   [[nodiscard]] Expected<void> recover();
   [[nodiscard]] std::shared_ptr<const MapSnapshot> snapshot() const;
   Decision decide();

@@ -10,7 +10,15 @@ Timekeeper::Timekeeper(Clock& clock, const CostTable& costs, Planner& planner,
     : clock_(clock),
       costs_(costs),
       timer_(timer),
-      background_(planner, clock, background_workers, meters_.background) {}
+      background_(planner, clock, background_workers, meters_.background) {
+  meters_.booked_s = clock.now_s();
+}
+
+void Timekeeper::book(double TimeSplit::*kind) {
+  const double now_s = clock_.now_s();
+  meters_.time.*kind += now_s - meters_.booked_s;
+  meters_.booked_s = now_s;
+}
 
 void Timekeeper::pay(const WorkMeter& work) {
   meters_.foreground.merge(work);

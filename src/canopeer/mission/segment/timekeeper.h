@@ -25,6 +25,11 @@ class Timekeeper {
   /// Something else takes so long.
   void goes_on(double seconds);
 
+  /// What has passed since the last call was spent on this.
+  void book(double TimeSplit::*kind);
+  /// So much has passed that nothing was spent on: somebody held the mission.
+  void held(double seconds) { meters_.booked_s += seconds; }
+
   [[nodiscard]] Background& background() { return background_; }
   [[nodiscard]] StageTimer& timer() { return timer_; }
   /// Sums since the run began: units and simulated seconds by kind.
@@ -34,9 +39,11 @@ class Timekeeper {
   struct Meters {
     WorkMeter foreground;
     WorkMeter background;
+    TimeSplit time{};
+    double booked_s = 0.0;  ///< until when, mission time
     template <typename Archive>
     void serialize(Archive& archive) {
-      archive(foreground, background);
+      archive(foreground, background, time, booked_s);
     }
   };
   [[nodiscard]] const Meters& meters() const { return meters_; }

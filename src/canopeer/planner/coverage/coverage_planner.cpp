@@ -22,7 +22,9 @@ Decision CoveragePlanner::decide(const Configuration& q, WorkMeter& work) {
     if (!goal) continue;
     if (auto decision = mover_->go(q, *goal, TargetKind::none, work)) return *decision;
   }
-  return {};  // the scan is done
+  Decision done;
+  done.action = Decision::Action::done;
+  return done;
 }
 
 Expected<std::string> CoveragePlanner::state() const {

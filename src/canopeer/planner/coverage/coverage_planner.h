@@ -17,7 +17,7 @@ struct CoverageOptions {
 
 /// A fixed scan that looks at nothing it learns, as scanning rigs do: the serpentine over the
 /// workspace facing the row (serpentine.h), views that cannot be reached left out. When all are
-/// done the arm waits for the end of the segment.
+/// done it says so, and waits for the end of the segment.
 class CoveragePlanner : public Planner {
  public:
   explicit CoveragePlanner(const CoverageOptions& options);

@@ -112,7 +112,11 @@ Decision DriveByPlanner::decide(const Configuration& q, WorkMeter& work) {
     if (const auto end = next_end(pass.lift_m)) return drive(*end, q);
     next_pass();
   }
-  if (ever_parked_) return {};
+  if (ever_parked_) {
+    Decision done;
+    done.action = Decision::Action::done;
+    return done;
+  }
   next_ = 0;  // from home there may be a way
   return stuck;
 }

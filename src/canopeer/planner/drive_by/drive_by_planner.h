@@ -21,9 +21,9 @@ struct DriveByOptions {
 /// The arm parked, the trolley drives: what growers can buy. At each lift height the camera is
 /// parked at `poses` heights, facing the row, and with each the trolley drives to the other end of
 /// the row, no faster than frames stay sharp (PlanningScene::sharp; nothing: as fast as it can).
-/// Then the same again with the camera tilted left, right, up and down. When all is done it waits.
-/// Frames on the way are all it sees but for one at each end; where none are taken it stops to look
-/// every 0.3 m.
+/// Then the same again with the camera tilted left, right, up and down. When all is done it says
+/// so. Frames on the way are all it sees but for one at each end; where none are taken it stops to
+/// look every 0.3 m.
 ///
 /// The heights divide the part of the workspace that is as high as the sampling region evenly. Of
 /// the places along the row and at least so far from it the one nearest to the workspace's middle

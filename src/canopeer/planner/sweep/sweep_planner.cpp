@@ -35,7 +35,9 @@ Decision SweepPlanner::decide(const Configuration& q, WorkMeter& work) {
     ++next_;
     if (auto decision = mover_->go(q, *goal, TargetKind::none, work)) return *decision;
   }
-  return {};  // the scan is done
+  Decision done;
+  done.action = Decision::Action::done;
+  return done;
 }
 
 /// From `q` through the next points, as far as straight motions are free and a stretch is long.

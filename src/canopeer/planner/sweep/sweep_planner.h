@@ -20,7 +20,7 @@ struct SweepOptions {
 /// round their ends, as fast as the arm may where frames are wanted on the way
 /// (PlanningScene::sharp). Between two points of the scan the arm moves straight in joint space.
 /// Points out of reach are left out; where the straight motion is blocked another way round is
-/// planned. When all are done the arm waits for the end of the segment.
+/// planned. When all are done it says so, and waits for the end of the segment.
 class SweepPlanner : public Planner {
  public:
   explicit SweepPlanner(const SweepOptions& options);

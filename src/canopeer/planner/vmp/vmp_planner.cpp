@@ -187,7 +187,8 @@ Expected<void> VmpPlanner::restore(const PlanningScene& scene, std::string_view 
   // What a view would see is kept only as long as no block its rays cross has changed, so a cast
   // on the present map gives the same. It was paid for when it was first made.
   WorkMeter paid;
-  ensure_casts(graph_, with_casts, *scene_.map, options_.path_search.fan, paid);
+  const PathSearchOptions& o = options_.path_search;
+  ensure_casts(graph_, with_casts, *scene_.map, o.fan, paid, o.cast);
   return {};
 }
 

@@ -29,14 +29,15 @@ SeenBox seen_box(const BodyView& view, const Eigen::Vector3f& centre, const Eige
 
 /// Lines from the camera through the picture's borders, pixels off the principal point.
 struct Borders {
-  explicit Borders(const CameraIntrinsics& camera)
-      : left(static_cast<float>(-camera.cx)),
+  Borders(const CameraIntrinsics& camera, float far_m)
+      : far(far_m),
+        left(static_cast<float>(-camera.cx)),
         right(static_cast<float>(camera.width - camera.cx)),
         top(static_cast<float>(-camera.cy)),
         bottom(static_cast<float>(camera.height - camera.cy)) {}
 
   [[nodiscard]] bool outside(const SeenBox& box) const {
-    if (!(box.high.z() > 0.0F)) return true;
+    if (!(box.high.z() > 0.0F) || box.low.z() > far) return true;
     const auto most = [&](float slope) {
       return std::max(slope * box.low.z(), slope * box.high.z());
     };
@@ -44,6 +45,7 @@ struct Borders {
            box.high.y() + most(-top) < 0.0F || most(bottom) - box.low.y() < 0.0F;
   }
 
+  float far;
   float left, right, top, bottom;
 };
 
@@ -95,8 +97,8 @@ BodyView body_view(const RasterBody& body, const CameraIntrinsics& camera,
 
 std::vector<QueuedCluster> queue_clusters(const std::vector<RasterBody>& bodies,
                                           const std::vector<BodyView>& views,
-                                          const CameraIntrinsics& camera) {
-  const Borders borders(camera);
+                                          const CameraIntrinsics& camera, float far_m) {
+  const Borders borders(camera, far_m);
   std::vector<QueuedCluster> found;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const TriangleClusters& all = *bodies[b].clusters;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "canopeer/render/raster/depth_tiles.h"
@@ -35,9 +36,11 @@ struct QueuedCluster {
   float nearness = 0.0F;  ///< no part of it is nearer: 1 / depth, 1/m
 };
 
-/// What of the bodies may be in a view, the nearest first. `views` has one entry per body.
+/// What of the bodies may be in a view, the nearest first. `views` has one entry per body. What is
+/// deeper than `far_m` as a whole is left out.
 std::vector<QueuedCluster> queue_clusters(const std::vector<RasterBody>& bodies,
                                           const std::vector<BodyView>& views,
-                                          const CameraIntrinsics& camera);
+                                          const CameraIntrinsics& camera,
+                                          float far_m = std::numeric_limits<float>::infinity());
 
 }  // namespace canopeer

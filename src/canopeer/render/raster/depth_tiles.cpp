@@ -65,4 +65,11 @@ void DepthTiles::drawn(const PixelBox& box) {
   }
 }
 
+void DepthTiles::close_empty() {
+  for (float& nearness : nearness_) {
+    if (nearness == 0.0F) nearness = std::numeric_limits<float>::infinity();
+  }
+  std::fill(stale_.begin(), stale_.end(), std::uint8_t{1});
+}
+
 }  // namespace canopeer

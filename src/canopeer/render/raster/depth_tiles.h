@@ -28,10 +28,16 @@ class DepthTiles {
     return surface_.data() + static_cast<std::size_t>(v) * stride_;
   }
 
+  [[nodiscard]] const float* nearness_row(int v) const {
+    return nearness_.data() + static_cast<std::size_t>(v) * stride_;
+  }
+
   /// Whether something nearer than `nearness` is seen all over the box.
   [[nodiscard]] bool hidden(const PixelBox& box, float nearness);
   /// Pixels of the box may have become nearer.
   void drawn(const PixelBox& box);
+  /// Pixels that show nothing so far will show nothing.
+  void close_empty();
 
  private:
   void refresh(std::size_t tile);

@@ -82,8 +82,14 @@ bool draw_cut(const DrawnView& view, const QueuedCluster& queued, RasterCluster 
   return view.kernels.draw(cluster, window);
 }
 
+/// Groups begin … end of the queue, by place.
+struct QueuePart {
+  std::size_t begin = 0, end = 0;
+};
+
 /// Rows first … last of the picture; both at borders of tiles.
-void draw_strip(const DrawnView& view, int first_row, int last_row, DepthTiles* tiles) {
+void draw_strip(const DrawnView& view, const QueuePart& part, int first_row, int last_row,
+                DepthTiles* tiles) {
   RasterWindow window;
   window.last_column = view.camera.width - 1;
   window.first_row = first_row;
@@ -94,7 +100,7 @@ void draw_strip(const DrawnView& view, int first_row, int last_row, DepthTiles* 
   window.nearness = tiles->nearness();
   window.surface = tiles->surface();
   window.stride = tiles->stride();
-  for (std::size_t i = 0; i < view.queue.size(); ++i) {
+  for (std::size_t i = part.begin; i < part.end; ++i) {
     const QueuedCluster& queued = view.queue[i];
     PixelBox box = queued.box;
     box.first_row = std::max(box.first_row, first_row);
@@ -108,23 +114,35 @@ void draw_strip(const DrawnView& view, int first_row, int last_row, DepthTiles* 
   }
 }
 
+/// Of each column, and some beyond the last: its centre less cx, pixels.
+std::vector<float> column_centres(const CameraIntrinsics& camera, std::size_t stride) {
+  std::vector<float> centres(stride + kRasterLanes);
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    centres[i] = static_cast<float>(static_cast<double>(i) + 0.5 - camera.cx);
+  }
+  return centres;
+}
+
 }  // namespace
 
-VisibleImage Rasterizer::draw(const CameraIntrinsics& camera, const Pose& T_world_camera) const {
-  VisibleImage image(camera.width, camera.height);
-  image.bodies_ = &bodies_;
+std::vector<BodyView> Rasterizer::places_of(const CameraIntrinsics& camera,
+                                            const Pose& T_world_camera) const {
   std::vector<BodyView> places;
   places.reserve(bodies_.size());
   for (const RasterBody& body : bodies_) {
     places.push_back(body_view(body, camera, T_world_camera));
   }
+  return places;
+}
+
+VisibleImage Rasterizer::draw(const CameraIntrinsics& camera, const Pose& T_world_camera) const {
+  VisibleImage image(camera.width, camera.height);
+  image.bodies_ = &bodies_;
+  const std::vector<BodyView> places = places_of(camera, T_world_camera);
   image.queue_ = queue_clusters(bodies_, places, camera);
   CANOPEER_CHECK(image.queue_.size() < kNoSurface / VisibleImage::kPerCluster,
                  "surfaces have 32 bit numbers");
-  std::vector<float> column_centre(image.tiles_.stride() + kRasterLanes);
-  for (std::size_t i = 0; i < column_centre.size(); ++i) {
-    column_centre[i] = static_cast<float>(static_cast<double>(i) + 0.5 - camera.cx);
-  }
+  const std::vector<float> column_centre = column_centres(camera, image.tiles_.stride());
   const DrawnView view{bodies_,        places,        image.queue_,          camera,
                        T_world_camera, column_centre, raster_kernels(level_)};
   // A pixel's surface does not depend on how the picture is shared out; groups on a border are
@@ -135,8 +153,33 @@ VisibleImage Rasterizer::draw(const CameraIntrinsics& camera, const Pose& T_worl
   oneapi::tbb::parallel_for(0, strips, [&](int strip) {
     const int begin = rows_of_tiles * strip / strips * DepthTiles::kTile;
     const int end = rows_of_tiles * (strip + 1) / strips * DepthTiles::kTile;
-    draw_strip(view, begin, std::min(end, camera.height) - 1, &image.tiles_);
+    draw_strip(view, {0, image.queue_.size()}, begin, std::min(end, camera.height) - 1,
+               &image.tiles_);
   });
+  return image;
+}
+
+VisibleImage Rasterizer::draw_first_body(const CameraIntrinsics& camera, const Pose& T_world_camera,
+                                         float far_m) const {
+  VisibleImage image(camera.width, camera.height);
+  image.bodies_ = &bodies_;
+  const std::vector<BodyView> places = places_of(camera, T_world_camera);
+  const auto first_other = bodies_.begin() + 1;
+  image.queue_ = queue_clusters({bodies_.begin(), first_other}, {places.front()}, camera, far_m);
+  const std::size_t own = image.queue_.size();
+  for (QueuedCluster cluster : queue_clusters({first_other, bodies_.end()},
+                                              {places.begin() + 1, places.end()}, camera, far_m)) {
+    ++cluster.body;
+    image.queue_.push_back(cluster);
+  }
+  CANOPEER_CHECK(image.queue_.size() < kNoSurface / VisibleImage::kPerCluster,
+                 "surfaces have 32 bit numbers");
+  const std::vector<float> column_centre = column_centres(camera, image.tiles_.stride());
+  const DrawnView view{bodies_,        places,        image.queue_,          camera,
+                       T_world_camera, column_centre, raster_kernels(level_)};
+  draw_strip(view, {0, own}, 0, camera.height - 1, &image.tiles_);
+  image.tiles_.close_empty();
+  draw_strip(view, {own, image.queue_.size()}, 0, camera.height - 1, &image.tiles_);
   return image;
 }
 

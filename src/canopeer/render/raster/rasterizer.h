@@ -17,6 +17,8 @@ class VisibleImage {
 
   /// What row v shows, from the left; `runs` is overwritten.
   void row(int v, std::vector<VisibleRun>* runs) const;
+  /// 1 / depth of what the pixels of row v show, 1/m; 0: nothing.
+  [[nodiscard]] const float* nearness_row(int v) const { return tiles_.nearness_row(v); }
 
  private:
   friend class Rasterizer;
@@ -41,8 +43,16 @@ class Rasterizer {
   /// The image must not outlive the rasteriser. Thread-safe; the same arguments give the same image
   /// with any number of threads and at any level.
   [[nodiscard]] VisibleImage draw(const CameraIntrinsics& camera, const Pose& T_world_camera) const;
+  /// The same image at pixels that the first body covers, hidden there or not; all others show
+  /// nothing. What is deeper than `far_m` may be left out. Much quicker where that body is small in
+  /// the picture. In the calling thread.
+  [[nodiscard]] VisibleImage draw_first_body(const CameraIntrinsics& camera,
+                                             const Pose& T_world_camera, float far_m) const;
 
  private:
+  [[nodiscard]] std::vector<BodyView> places_of(const CameraIntrinsics& camera,
+                                                const Pose& T_world_camera) const;
+
   std::vector<RasterBody> bodies_;
   SimdLevel level_;
 };

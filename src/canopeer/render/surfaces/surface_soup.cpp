@@ -27,8 +27,6 @@ bool textured(const ScenePart& part) {
   return part.texture != nullptr && part.uv.size() == part.mesh.vertices.size();
 }
 
-bool cut(const ScenePart& part) { return textured(part) && part.texture->cuts(); }
-
 /// Texture coordinates and vertex colours, once any part has them.
 void add_paint(const ScenePart& part, std::size_t first, SurfaceSoup* soup) {
   if (textured(part)) {
@@ -73,14 +71,16 @@ Eigen::Vector2f uv_at(const SurfaceSoup& soup, std::uint32_t triangle, Barycentr
 
 }  // namespace
 
+bool has_holes(const ScenePart& part) { return textured(part) && part.texture->cuts(); }
+
 SurfaceSoup make_surface_soup(const std::vector<ScenePart>& parts) {
   SurfaceSoup soup;
   for (const ScenePart& part : parts) {
-    if (!part.see_through && !cut(part)) add_part(part, &soup);
+    if (!part.see_through && !has_holes(part)) add_part(part, &soup);
   }
   soup.first_cut = static_cast<std::uint32_t>(soup.triangles.size());
   for (const ScenePart& part : parts) {
-    if (!part.see_through && cut(part)) add_part(part, &soup);
+    if (!part.see_through && has_holes(part)) add_part(part, &soup);
   }
   if (!soup.uv.empty()) soup.uv.resize(soup.vertices.size(), Eigen::Vector2f::Zero());
   if (!soup.colors.empty()) soup.colors.resize(soup.vertices.size(), Eigen::Vector3f::Zero());

@@ -39,7 +39,10 @@ struct SurfaceSoup {
   std::vector<Part> parts;
 };
 
-/// What a camera can see of these parts.
+/// Its texture has holes.
+bool has_holes(const ScenePart& part);
+
+/// What a camera can see of these parts: in their order those without holes, then those with.
 SurfaceSoup make_surface_soup(const std::vector<ScenePart>& parts);
 
 /// Weights of a triangle's three vertices at a hit.

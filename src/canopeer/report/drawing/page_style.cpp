@@ -40,7 +40,8 @@ dd { margin: 0; text-align: right; white-space: nowrap; font-variant-numeric: ta
 .bar { display: flex; height: 26px; border-radius: 5px; overflow: hidden; gap: 2px; margin-bottom: 8px; }
 .key { display: flex; flex-wrap: wrap; gap: 4px 22px; font-size: 0.9rem; margin: 0 0 18px; padding: 0; list-style: none; }
 .key i { display: inline-block; width: 12px; height: 12px; border-radius: 3px; margin-right: 7px; }
-.b0 { background: var(--c0); } .b1 { background: var(--c1); } .b5 { background: var(--rule); }
+.b0 { background: var(--c0); } .b1 { background: var(--c1); } .b2 { background: var(--c2); }
+.b3 { background: var(--c3); } .b5 { background: var(--rule); }
 figure { margin: 0 0 18px; }
 figure img { width: 100%; height: auto; border-radius: 6px; display: block; }
 figcaption { margin-top: 6px; }

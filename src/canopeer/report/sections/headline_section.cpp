@@ -84,15 +84,57 @@ std::vector<std::pair<std::string, std::string>> agreement_figures(const Summary
   return figures;
 }
 
+using Figures = std::vector<std::pair<std::string, std::string>>;
+
+/// What the run reached of what was possible, as far as somebody gave a yardstick.
+Figures yardstick_figures(const Summary& s) {
+  Figures figures;
+  const auto add = [&](const char* name, const std::optional<double>& share) {
+    if (share) figures.emplace_back(name, fmt::format("{:.1f} %", 100.0 * *share));
+  };
+  add("Of the fruits that can be seen: found", s.ceiling_fruits_share);
+  add("Of the surface that can be seen: seen", s.ceiling_surface_share);
+  add("Of the clairvoyant's fruits", s.clairvoyant_found_share);
+  add("Of the clairvoyant's AUC", s.clairvoyant_auc_share);
+  add("Of the most fruits known", s.best_found_share);
+  add("Of the best AUC known", s.best_auc_share);
+  add("Fruits below the sampled bound", s.sampled_found_gap);
+  add("AUC below the sampled bound", s.sampled_auc_gap);
+  add("Fruits below the certified bound", s.certified_found_gap);
+  add("AUC below the certified bound", s.certified_auc_gap);
+  return figures;
+}
+
+/// Those that not every run has.
+Figures further_figures(const Summary& s) {
+  Figures figures;
+  const auto add = [&](const char* name, const std::optional<double>& value, const char* unit,
+                       int decimals) {
+    if (value) figures.emplace_back(name, fmt::format("{:.{}f}{}", *value, decimals, unit));
+  };
+  if (s.auc_views) {
+    figures.emplace_back("Share found, mean over the views",
+                         fmt::format("{:.1f} %", 100.0 * *s.auc_views));
+  }
+  add("Count accuracy", s.count_accuracy_pct, " %", 1);
+  add("Volume of the fruits found / true", s.volume_ratio_pct, " %", 1);
+  add("Surface recall at 15 mm", s.surface_recall, "", 3);
+  add("Surface F1 at 15 mm", s.surface_f1, "", 3);
+  add("Camera path length", s.camera_path_length_m, " m", 1);
+  add("Predicted and realised gain, rank correlation", s.gain_correlation_same_space, "", 2);
+  return figures;
+}
+
 }  // namespace
 
 std::string headline_section(const ReportData& data) {
   const Summary& s = data.files.summary;
   std::string html = fmt::format(
-      "<header>\n<h1>{}</h1>\n<p class=\"sub\">planner {} · seed {} · compute table {} · "
+      "<header>\n<h1>{}</h1>\n<p class=\"sub\">planner {}{} · seed {} · compute table {} · "
       "canopeer {}</p>\n</header>\n",
-      escape_html(s.mission), escape_html(s.planner), s.seed, escape_html(s.compute_table),
-      escape_html(s.canopeer_version));
+      escape_html(s.mission), escape_html(s.planner),
+      s.protocol ? " · protocol " + escape_html(*s.protocol) : "", s.seed,
+      escape_html(s.compute_table), escape_html(s.canopeer_version));
   if (s.interrupted || data.files.record.interrupted) {
     html += fmt::format(
         "<p class=\"notice\">This run was interrupted after {} ({}). What it had "
@@ -143,7 +185,9 @@ std::string figures_section(const ReportData& data) {
       {"Joint path length", fmt::format("{:.1f} rad", s.joint_path_length_rad)},
       {"Arm and trolley moving", duration_text(s.motion_time_s)},
       {"Standing still to map and plan", duration_text(s.planning_time_s)}};
-  for (auto& figure : agreement_figures(s)) figures.push_back(std::move(figure));
+  for (Figures more : {further_figures(s), yardstick_figures(s), agreement_figures(s)}) {
+    figures.insert(figures.end(), more.begin(), more.end());
+  }
   std::string html = "<dl>\n";
   for (const auto& [name, value] : figures) {
     html += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, value);

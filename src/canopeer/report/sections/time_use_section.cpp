@@ -52,19 +52,33 @@ std::string work_table(const std::vector<WorkItem>& work) {
          "waiting time.</p>\n";
 }
 
+/// All of the mission's time, nothing twice.
+std::string split_bar(const TimeSplit& t) {
+  const double total_s = t.execution_s + t.transitions_s + t.mapping_s + t.planning_s + t.waiting_s;
+  if (!(total_s > 0.0)) return {};
+  return share_bar({{"moving to views", "b0", t.execution_s},
+                    {"between segments", "b1", t.transitions_s},
+                    {"standing still to map", "b2", t.mapping_s},
+                    {"standing still to plan", "b3", t.planning_s},
+                    {"waiting", "b5", t.waiting_s}},
+                   total_s);
+}
+
+std::string simple_bar(const Summary& s) {
+  const double rest_s = std::max(0.0, s.sim_time_s - s.motion_time_s - s.planning_time_s);
+  return share_bar({{"moving", "b0", s.motion_time_s},
+                    {"standing still to map and plan", "b1", s.planning_time_s},
+                    {"the rest", "b5", rest_s}},
+                   s.motion_time_s + s.planning_time_s + rest_s);
+}
+
 }  // namespace
 
 std::string time_use_section(const ReportData& data) {
   const Summary& s = data.files.summary;
   if (!(s.sim_time_s > 0.0)) return {};
-  const double rest_s = std::max(0.0, s.sim_time_s - s.motion_time_s - s.planning_time_s);
-  const double total_s = s.motion_time_s + s.planning_time_s + rest_s;
-  return html_section("Where the time goes",
-                      share_bar({{"moving", "b0", s.motion_time_s},
-                                 {"standing still to map and plan", "b1", s.planning_time_s},
-                                 {"the rest", "b5", rest_s}},
-                                total_s) +
-                          work_table(data.files.record.work));
+  return html_section("Where the time goes", (s.time ? split_bar(*s.time) : simple_bar(s)) +
+                                                 work_table(data.files.record.work));
 }
 
 }  // namespace canopeer

@@ -34,12 +34,20 @@ Words words_of_steering(const SteeringWord& word) {
 
 }  // namespace
 
+namespace {
+
+std::string time_of(double segment_time_s) {
+  return segment_time_s > 0.0 ? fmt::format(" of {:.0f} s", segment_time_s) : ", no time limit";
+}
+
+}  // namespace
+
 std::optional<EventWords> words_of(const Event& event) {
   return std::visit(
       Visitors{[](const RunBegun& e) -> Words {
-                 return EventWords{Log::INFO, fmt::format("the run {}: {} segments of {:.0f} s",
+                 return EventWords{Log::INFO, fmt::format("the run {}: {} segments{}",
                                                           e.resumed ? "goes on" : "begins",
-                                                          e.segments, e.segment_time_s)};
+                                                          e.segments, time_of(e.segment_time_s))};
                },
                [](const SegmentBegun& e) -> Words {
                  return EventWords{Log::INFO, fmt::format("segment {} begins: {}",

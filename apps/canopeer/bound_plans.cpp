@@ -1,0 +1,206 @@
+#include "bound_plans.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "canopeer/base/atomic_file.h"
+#include "canopeer/bounds/clairvoyant.h"
+#include "canopeer/bounds/upper_bounds.h"
+#include "canopeer/eval/matching.h"
+#include "canopeer/planner/playback/plan_file.h"
+#include "canopeer/run/run.h"
+#include "exit_status.h"
+#include "import_line.h"
+#include "mission_arguments.h"
+#include "mission_progress.h"
+#include "stop_signal.h"
+
+namespace canopeer::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One of the two plans: what it is best at, and where it and its run lie.
+struct PlanJob {
+  ClairvoyantOptions::Objective objective = ClairvoyantOptions::Objective::found;
+  std::string name;  ///< of the run's folder; the plan is NAME.json beside it
+};
+
+/// All that plan and run depend on: a run under the same words is not made again.
+std::string words_of(const BoundWorld& world, const ViewPool& pool, const FindRule& rule) {
+  return std::string("canopeer ") + CANOPEER_VERSION + "\n" + pool.key + "\nfind area " +
+         std::to_string(rule.min_area_cm2) + "\n" + world.file().settings_json + "\n";
+}
+
+bool is_there(const fs::path& out, const std::string& words) {
+  const auto before = read_file(out / "made_of.txt");
+  return before && *before == words && fs::exists(out / "summary.json");
+}
+
+ClairvoyantPlan plan_for(const BoundWorld& world, const ViewPool& pool, const FindRule& rule,
+                         ClairvoyantOptions::Objective objective,
+                         const std::vector<double>& factors) {
+  ClairvoyantOptions options;
+  options.objective = objective;
+  options.latency_s = world.file().simulation.sensor.motion.latency_s;
+  options.area_factors = factors;
+  return value_or_stop(plan_clairvoyant(pool, world.stage->robot().model, *world.judge,
+                                        world.file().mission, rule, options),
+                       kFailed);
+}
+
+/// Of the fruits a plan should find those that its run did not.
+std::vector<int> missed(const Run& run, const Scene& scene, const std::vector<int>& promised) {
+  std::vector<Vec3> centres;
+  for (const FruitEstimate& fruit : run.mission().fruits().fruits())
+    centres.push_back(fruit.centre);
+  std::set<int> found;
+  for (const FruitPair& pair : match_optimal(centres, scene.fruits).pairs) {
+    found.insert(scene.fruits[static_cast<std::size_t>(pair.truth)].id);
+  }
+  std::vector<int> missed;
+  std::copy_if(promised.begin(), promised.end(), std::back_inserter(missed),
+               [&](int id) { return !found.contains(id); });
+  return missed;
+}
+
+std::string numbers_text(const std::vector<int>& numbers) {
+  std::string text;
+  for (const int number : numbers) text += std::to_string(number) + "\n";
+  return text;
+}
+
+std::vector<int> numbers_in(const std::string& text) {
+  std::vector<int> numbers;
+  std::istringstream lines(text);
+  for (int number = 0; lines >> number;) numbers.push_back(number);
+  return numbers;
+}
+
+/// Executed by the planner `playback` in the simulator, as any planner's run; leaves `missed.txt`.
+Summary execute(const BoundArguments& arguments, const BoundWorld& world, const fs::path& plan,
+                const std::vector<int>& promised, const fs::path& out) {
+  Overrides overrides = bound_overrides(arguments);
+  overrides.emplace_back("planner", "playback");
+  overrides.emplace_back("playback.plan", fs::absolute(plan).string());
+  ImportLine line(true);
+  StageRequest request = stage_request(arguments.mission, overrides);
+  request.threads = arguments.threads;
+  request.callbacks = callbacks_for_people(line, true);
+  request.callbacks.on_notice = {};  // said when the world was made
+  const auto run = value_or_stop(
+      Run::compose(load(arguments.mission, overrides), request, *arguments.mission.registries, out),
+      kBadInput);
+  SignalSteering signals;
+  run->steer(signals);
+  run->watch(std::make_shared<MissionProgress>(arguments.quiet), {.name = "the progress bar"});
+  Summary summary = value_or_stop(run->execute(), kFailed);
+  if (run->interrupted()) {
+    std::fprintf(stderr, "canopeer: interrupted; the same command goes on from what is in %s\n",
+                 arguments.out.c_str());
+    throw Stop{kInterrupted};
+  }
+  const std::vector<int> ids = missed(*run, world.scene(), promised);
+  value_or_stop(write_file(out / "missed.txt", numbers_text(ids)), kFailed);
+  return summary;
+}
+
+BestResult result_of(const BoundArguments& arguments, const Summary& summary,
+                     const std::string& plan) {
+  BestResult best;
+  best.detected = summary.detected.value_or(0);
+  best.auc = summary.auc.value_or(0.0);
+  best.planner = "clairvoyant";
+  best.version = summary.canopeer_version;
+  best.seed = summary.seed;
+  best.plan = plan;
+  best.settings = arguments.mission.settings;
+  if (arguments.segments) {
+    best.settings.push_back("max_segments=" + std::to_string(*arguments.segments));
+  }
+  return best;
+}
+
+/// A plan executed, and what of its promise was missed.
+struct Executed {
+  BestResult result;
+  std::vector<int> missed;
+};
+
+Executed make(const BoundArguments& arguments, const BoundWorld& world, const ViewPool& pool,
+              const FindRule& rule, const PlanJob& job, const std::vector<double>& factors) {
+  const fs::path out = fs::path(arguments.out) / job.name;
+  const std::string plan_name = job.name + ".json";
+  std::string words = words_of(world, pool, rule);
+  for (const double factor : factors) words += " " + std::to_string(factor);
+  Summary summary;
+  if (is_there(out, words)) {
+    summary = value_or_stop(read_summary(out / "summary.json"), kFailed);
+  } else {
+    const ClairvoyantPlan plan = plan_for(world, pool, rule, job.objective, factors);
+    const fs::path plan_path = fs::path(arguments.out) / plan_name;
+    value_or_stop(write_view_plan(plan_path, plan.plan), kFailed);
+    summary = execute(arguments, world, plan_path, plan.fruit_ids, out);
+    value_or_stop(write_file(out / "made_of.txt", words), kFailed);
+  }
+  return {result_of(arguments, summary, plan_name),
+          numbers_in(value_or_stop(read_file(out / "missed.txt"), kFailed))};
+}
+
+bool finds_more(const BestResult& a, const BestResult& b) {
+  return a.detected != b.detected ? a.detected > b.detected : a.auc > b.auc;
+}
+
+/// Which pixels become a fruit is known only when they are fused. So the plan is executed, and of
+/// fruits that were missed more is wanted to be seen, a few times over. All results.
+std::vector<BestResult> rounds_of(const BoundArguments& arguments, const BoundWorld& world,
+                                  const ViewPool& pool, const FindRule& rule, const PlanJob& job) {
+  constexpr int kRounds = 3;
+  constexpr double kMore = 2.0;
+  std::vector<double> factors(world.scene().fruits.size(), 1.0);
+  std::vector<BestResult> results;
+  for (int round = 1; round <= kRounds; ++round) {
+    const PlanJob one{job.objective, job.name + "_" + std::to_string(round)};
+    const Executed executed = make(arguments, world, pool, rule, one, factors);
+    results.push_back(executed.result);
+    if (executed.missed.empty()) break;
+    for (const int id : executed.missed) factors[static_cast<std::size_t>(id)] *= kMore;
+  }
+  return results;
+}
+
+}  // namespace
+
+void add_clairvoyant(const BoundArguments& arguments, const BoundWorld& world, const ViewPool& pool,
+                     BoundResults& results) {
+  using Objective = ClairvoyantOptions::Objective;
+  const auto by = [&](Objective objective, const char* name) {
+    return rounds_of(arguments, world, pool, results.plan_rule, {objective, name});
+  };
+  std::vector<BestResult> all = by(Objective::found, "clairvoyant_found");
+  for (BestResult& one : by(Objective::auc, "clairvoyant_auc")) all.push_back(std::move(one));
+  Yardstick& y = results.yardstick;
+  y.best_found = *std::max_element(all.begin(), all.end(),
+                                   [](const auto& a, const auto& b) { return finds_more(b, a); });
+  y.best_auc = *std::max_element(all.begin(), all.end(),
+                                 [](const auto& a, const auto& b) { return a.auc < b.auc; });
+  y.clairvoyant = y.best_auc;
+}
+
+void add_upper_bounds(const BoundWorld& world, const ViewPool& pool, BoundResults& results) {
+  const RobotModel& robot = world.stage->robot().model;
+  const MissionOptions& mission = world.file().mission;
+  results.yardstick.sampled = sampled_bound(pool, robot, mission, results.rule);
+  results.yardstick.certified =
+      certified_bound(world.scene(), robot, mission, world.file().simulation.camera);
+}
+
+}  // namespace canopeer::app

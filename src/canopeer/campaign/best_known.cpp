@@ -1,0 +1,97 @@
+#include "canopeer/campaign/best_known.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace canopeer {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kSameAuc = 1e-12;  // a number went through text
+
+void check_bound(const char* name, const std::optional<UpperBound>& bound,
+                 const std::optional<BestResult>& most, const std::optional<BestResult>& best_auc,
+                 std::vector<std::string>& found) {
+  if (!bound) return;
+  if (bound->fruits && most && most->detected > *bound->fruits + 1e-6) {
+    found.push_back(fmt::format("{} fruits were found by {}, the {} bound is {:g}", most->detected,
+                                most->planner, name, *bound->fruits));
+  }
+  if (bound->auc && best_auc && best_auc->auc > *bound->auc + 1e-6) {
+    found.push_back(fmt::format("AUC {:.4f} was reached by {}, the {} bound is {:.4f}",
+                                best_auc->auc, best_auc->planner, name, *bound->auc));
+  }
+}
+
+}  // namespace
+
+fs::path mission_record(const std::string& mission, std::uint64_t world_seed,
+                        const std::string& protocol) {
+  return fs::path(mission) / fmt::format("seed_{}", world_seed) / (protocol + ".json");
+}
+
+fs::path suite_record(const std::string& world, const std::string& protocol) {
+  return fs::path("suite") / world / (protocol + ".json");
+}
+
+Expected<std::optional<Yardstick>> known_yardstick(const fs::path& path) {
+  std::error_code code;
+  if (!fs::exists(path, code)) return std::optional<Yardstick>();
+  auto yardstick = read_yardstick(path);
+  if (!yardstick) return tl::unexpected(yardstick.error());
+  return std::optional<Yardstick>(std::move(*yardstick));
+}
+
+std::optional<Yardstick> improved_by(const Yardstick& known, const RunFigures& run,
+                                     const std::string& version,
+                                     const std::vector<std::string>& settings) {
+  BestResult result;
+  result.detected = static_cast<int>(run.values[figure_index("detected")].value_or(0.0));
+  result.auc = run.values[figure_index("auc")].value_or(0.0);
+  result.planner = run.job.contestant.planner;
+  result.version = version;
+  result.seed = run.job.seed;
+  result.settings = settings;
+  if (!run.job.contestant.table.empty()) {
+    result.settings.push_back("compute_table=" + run.job.contestant.table);
+  }
+  Yardstick better = known;
+  const auto& most = known.best_found;
+  const bool more = !most || result.detected > most->detected ||
+                    (result.detected == most->detected && result.auc > most->auc + kSameAuc);
+  const bool sooner = !known.best_auc || result.auc > known.best_auc->auc + kSameAuc;
+  if (more) better.best_found = result;
+  if (sooner) better.best_auc = result;
+  return more || sooner ? std::optional(better) : std::nullopt;
+}
+
+std::vector<std::string> contradictions(const Yardstick& y) {
+  std::vector<std::string> found;
+  for (const auto& result : {y.clairvoyant, y.best_found, y.best_auc}) {
+    if (!result) continue;
+    if (result->detected < 0 || result->detected > y.fruits_total) {
+      found.push_back(fmt::format("{} of {} fruits were found by {}", result->detected,
+                                  y.fruits_total, result->planner));
+    }
+    if (!(result->auc >= 0.0 && result->auc <= 1.0)) {
+      found.push_back(fmt::format("an AUC of {} is none, by {}", result->auc, result->planner));
+    }
+  }
+  if (y.clairvoyant && y.best_found && y.clairvoyant->detected > y.best_found->detected) {
+    found.emplace_back("the clairvoyant plan found more fruits than the best known result");
+  }
+  if (y.clairvoyant && y.best_auc && y.clairvoyant->auc > y.best_auc->auc + kSameAuc) {
+    found.emplace_back("the clairvoyant plan has a greater AUC than the best known result");
+  }
+  if (y.ceiling_fruits && y.best_found && y.best_found->detected > *y.ceiling_fruits) {
+    found.push_back(fmt::format("{} fruits were found by {}, only {} can be seen",
+                                y.best_found->detected, y.best_found->planner, *y.ceiling_fruits));
+  }
+  check_bound("sampled", y.sampled, y.best_found, y.best_auc, found);
+  check_bound("certified", y.certified, y.best_found, y.best_auc, found);
+  return found;
+}
+
+}  // namespace canopeer
