@@ -73,7 +73,7 @@ struct ViewPool {
 /// When a fruit counts as one that its seen patches let be found: so much of its surface was seen,
 /// at least. Smaller pieces the fruit map does not report.
 struct FindRule {
-  double min_area_cm2 = 5.0;  ///< what bounds go by; plans go by more (decision 111)
+  double min_area_cm2 = 3.0;  ///< what bounds go by; plans go by more (decision 111)
 };
 
 }  // namespace canopeer

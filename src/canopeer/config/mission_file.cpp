@@ -200,9 +200,10 @@ Expected<CostTable> find_cost_table(const std::string& name, const fs::path& mis
     const fs::path path = dir / (name + ".yaml");
     if (fs::exists(path)) return load_cost_table(path);
   }
-  return fail("compute table '" + name +
-              "' not found; expected 'default', 'reference', 'free', 'this-machine' (after "
-              "'canopeer calibrate'), or a .yaml file");
+  return fail(
+      "compute table '" + name +
+      "' not found; expected 'default', 'profiled', 'reference', 'free', 'this-machine' (after "
+      "'canopeer calibrate'), or a .yaml file");
 }
 
 }  // namespace
