@@ -36,8 +36,7 @@ TEST(SuiteCommand, RunsIsResumedAndSaysWhatIsHandedIn) {
   ASSERT_EQ(whole.status, 0) << whole.err;
   EXPECT_EQ(fs::last_write_time(first), written);
   EXPECT_NE(whole.out.find("coverage"), std::string::npos) << whole.out;
-  for (const char* file :
-       {"suite.html", "results.json", "results.csv", "comparison.html"}) {
+  for (const char* file : {"suite.html", "results.json", "results.csv", "comparison.html"}) {
     EXPECT_TRUE(fs::exists(out / file)) << file;
   }
   // One world is no whole split: said so, and nothing else is wrong.

@@ -32,7 +32,7 @@ struct JobPoolOptions {
   bool keep_maps = false;         ///< keep map.ot, map_roi.ot and pictures, tens of MB a run
 };
 
-/// Makes the runs as processes of this machine. A run is made in `DIR.XXXXXXXX.part` and renamed
+/// Makes the runs as processes of this machine. A run is made in `DIR.RANDOM.part` and renamed
 /// when it is whole; `DIR/command` holds the command that made it. Runs that are there are left
 /// alone, so an interrupted campaign goes on where it was. A run that fails is reported, and the
 /// others go on. What a failed run printed is kept in `DIR.log`.

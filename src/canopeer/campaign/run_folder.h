@@ -6,7 +6,7 @@
 
 namespace canopeer {
 
-/// The folder of a run that comes into being under another name, `DIR.XXXXXXXX.part`, and gets its
+/// The folder of a run that comes into being under another name, `DIR.RANDOM.part`, and gets its
 /// own when it is whole. Each object has a name of its own: of several processes that make the same
 /// run at the same time, on one machine or on several with a shared folder, none writes into
 /// another's.
