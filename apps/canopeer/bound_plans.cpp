@@ -47,13 +47,13 @@ bool is_there(const fs::path& out, const std::string& words) {
 
 ClairvoyantPlan plan_for(const BoundWorld& world, const ViewPool& pool, const FindRule& rule,
                          ClairvoyantOptions::Objective objective,
-                         const std::vector<double>& factors) {
+                         const std::vector<double>& factors, MotionVerdicts& verdicts) {
   ClairvoyantOptions options;
   options.objective = objective;
   options.latency_s = world.file().simulation.sensor.motion.latency_s;
   options.area_factors = factors;
   return value_or_stop(plan_clairvoyant(pool, world.stage->robot().model, *world.judge,
-                                        world.file().mission, rule, options),
+                                        world.file().mission, rule, options, &verdicts),
                        kFailed);
 }
 
@@ -136,7 +136,8 @@ struct Executed {
 };
 
 Executed make(const BoundArguments& arguments, const BoundWorld& world, const ViewPool& pool,
-              const FindRule& rule, const PlanJob& job, const std::vector<double>& factors) {
+              const FindRule& rule, const PlanJob& job, const std::vector<double>& factors,
+              MotionVerdicts& verdicts) {
   const fs::path out = fs::path(arguments.out) / job.name;
   const std::string plan_name = job.name + ".json";
   std::string words = words_of(world, pool, rule);
@@ -145,7 +146,7 @@ Executed make(const BoundArguments& arguments, const BoundWorld& world, const Vi
   if (is_there(out, words)) {
     summary = value_or_stop(read_summary(out / "summary.json"), kFailed);
   } else {
-    const ClairvoyantPlan plan = plan_for(world, pool, rule, job.objective, factors);
+    const ClairvoyantPlan plan = plan_for(world, pool, rule, job.objective, factors, verdicts);
     const fs::path plan_path = fs::path(arguments.out) / plan_name;
     value_or_stop(write_view_plan(plan_path, plan.plan), kFailed);
     summary = execute(arguments, world, plan_path, plan.fruit_ids, out);
@@ -162,14 +163,15 @@ bool finds_more(const BestResult& a, const BestResult& b) {
 /// Which pixels become a fruit is known only when they are fused. So the plan is executed, and of
 /// fruits that were missed more is wanted to be seen, a few times over. All results.
 std::vector<BestResult> rounds_of(const BoundArguments& arguments, const BoundWorld& world,
-                                  const ViewPool& pool, const FindRule& rule, const PlanJob& job) {
+                                  const ViewPool& pool, const FindRule& rule, const PlanJob& job,
+                                  MotionVerdicts& verdicts) {
   constexpr int kRounds = 3;
   constexpr double kMore = 2.0;
   std::vector<double> factors(world.scene().fruits.size(), 1.0);
   std::vector<BestResult> results;
   for (int round = 1; round <= kRounds; ++round) {
     const PlanJob one{job.objective, job.name + "_" + std::to_string(round)};
-    const Executed executed = make(arguments, world, pool, rule, one, factors);
+    const Executed executed = make(arguments, world, pool, rule, one, factors, verdicts);
     results.push_back(executed.result);
     if (executed.missed.empty()) break;
     for (const int id : executed.missed) factors[static_cast<std::size_t>(id)] *= kMore;
@@ -182,8 +184,9 @@ std::vector<BestResult> rounds_of(const BoundArguments& arguments, const BoundWo
 void add_clairvoyant(const BoundArguments& arguments, const BoundWorld& world, const ViewPool& pool,
                      BoundResults& results) {
   using Objective = ClairvoyantOptions::Objective;
+  MotionVerdicts verdicts;
   const auto by = [&](Objective objective, const char* name) {
-    return rounds_of(arguments, world, pool, results.plan_rule, {objective, name});
+    return rounds_of(arguments, world, pool, results.plan_rule, {objective, name}, verdicts);
   };
   std::vector<BestResult> all = by(Objective::found, "clairvoyant_found");
   for (BestResult& one : by(Objective::auc, "clairvoyant_auc")) all.push_back(std::move(one));

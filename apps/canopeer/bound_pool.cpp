@@ -52,11 +52,12 @@ class PoolBar {
   void show(const PoolProgress& p) {
     char text[160];
     const double once = p.course.patches > 0 ? 100.0 * p.course.seen_once / p.course.patches : 0.0;
-    std::snprintf(
-        text, sizeof text,
-        "views of segment %d/%d  %6lld sampled  %3d fruits  %4.1f %% of patches seen once",
-        p.segment + 1, p.segments, static_cast<long long>(p.course.sampled), p.course.fruits, once);
-    bar_.show(p.share, text, p.segment);
+    const std::string where = p.again > 0 ? "all segments again, round " + std::to_string(p.again)
+                                          : "views of segment " + std::to_string(p.segment + 1) +
+                                                "/" + std::to_string(p.segments);
+    std::snprintf(text, sizeof text, "%s  %6lld sampled  %3d fruits  %4.1f %% of patches seen once",
+                  where.c_str(), static_cast<long long>(p.course.sampled), p.course.fruits, once);
+    bar_.show(p.share, text, p.segment + p.again);
   }
   void finish() { bar_.finish(); }
 
@@ -108,7 +109,10 @@ BoundWorld make_bound_world(const BoundArguments& arguments) {
   world.stage = value_or_stop(
       Stage::make(load(arguments.mission, overrides), request, *arguments.mission.registries),
       kBadInput);
-  world.judge = std::make_unique<MotionJudge>(world.stage->robot().model, world.scene());
+  constexpr double kStepM = 0.01;
+  constexpr int kStops = 16;  // plans go to and fro between them
+  world.judge =
+      std::make_unique<MotionJudge>(world.stage->robot().model, world.scene(), kStepM, kStops);
   world.hash =
       world_hash(world.scene(), robot_texts(world.file().robot), world.file().simulation.camera);
   return world;

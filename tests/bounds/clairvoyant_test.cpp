@@ -124,6 +124,25 @@ TEST_F(ClairvoyantTest, GivesTheSamePlanAgainAndAnotherForAnotherWish) {
   EXPECT_GE(once->auc, found->auc - 1e-3);
 }
 
+TEST_F(ClairvoyantTest, WhatOthersAskedBeforeChangesNoPlan) {
+  set_up_stage({{"time_per_segment_s", "5"}, {"clock", "whole"}}, 80);
+  MotionVerdicts verdicts;
+  ClairvoyantOptions options;
+  const auto with = [&] {
+    return plan_clairvoyant(pool_, stage_->robot().model, *judge_, stage_->file().mission,
+                            FindRule{3.0}, options, &verdicts);
+  };
+  options.objective = ClairvoyantOptions::Objective::found;
+  const auto found = with();
+  ASSERT_GT(found->motions_blocked, 0);
+  options.objective = ClairvoyantOptions::Objective::auc;
+  const auto auc = with();
+  const auto alone = plan_clairvoyant(pool_, stage_->robot().model, *judge_, stage_->file().mission,
+                                      FindRule{3.0}, options);
+  EXPECT_EQ(view_plan_json(auc->plan).value(), view_plan_json(alone->plan).value());
+  EXPECT_EQ(auc->motions_judged, alone->motions_judged);
+}
+
 TEST_F(ClairvoyantTest, KeepsToTheNumberOfViewsWhereTimeIsNoLimit) {
   set_up_stage({{"time_per_segment_s", "5"}}, 80);
   MissionOptions mission = stage_->file().mission;

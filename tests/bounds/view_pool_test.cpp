@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "canopeer/base/atomic_file.h"
@@ -97,6 +98,24 @@ TEST(ViewPool, ThinningKeepsEverythingThatASampleShowed) {
   EXPECT_GT(ceiling.surface, 0.0);
   EXPECT_LT(ceiling.surface, 1.0);
   EXPECT_EQ(ceiling.views, pool.sampled);
+}
+
+TEST(ViewPool, AimsAgainAtWhatFewViewsHaveShown) {
+  SmallMission less;
+  less.options.again = 0;
+  const ViewPool pool = must(less.build());
+  const auto seen = [](const ViewPool& p, auto often) {
+    return std::count_if(p.times_seen.begin(), p.times_seen.end(), often);
+  };
+  const auto ever = [](std::uint32_t n) { return n > 0; };
+  const auto once = [](std::uint32_t n) { return n == 1; };
+  EXPECT_GT(seen(whole_pool(), ever), seen(pool, ever));
+  EXPECT_LT(seen(whole_pool(), once), seen(pool, once));
+  EXPECT_GT(whole_pool().sampled, pool.sampled);
+  // What the first rounds showed is still there.
+  for (std::size_t p = 0; p < pool.times_seen.size(); ++p) {
+    EXPECT_LE(pool.times_seen[p], whole_pool().times_seen[p]) << p;
+  }
 }
 
 TEST(ViewPool, IsTheSameWithAnyNumberOfThreads) {

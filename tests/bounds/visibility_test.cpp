@@ -8,9 +8,13 @@
 #include "canopeer/bounds/pipeline_ceiling.h"
 #include "canopeer/bounds/visibility/fruit_cutting.h"
 #include "canopeer/bounds/visibility/pool_thinning.h"
+#include "canopeer/bounds/visibility/view_sampling.h"
 #include "canopeer/render/rays/ray_caster.h"
 #include "canopeer/render/renderer.h"
+#include "canopeer/render/sight_lines.h"
 #include "canopeer/scene/worlds.h"
+#include "support/must.h"
+#include "support/planning_fixture.h"
 
 namespace canopeer {
 namespace {
@@ -111,6 +115,45 @@ TEST(NumberedView, SeesThePatchesThatRaysMeet) {
     together += expected.size();
   }
   EXPECT_GT(together, 300U);
+}
+
+TEST(FreeViews, AtAPointItIsInThePicture) {
+  const RobotModel& robot = test::test_robot();
+  const ArmIk ik = must(ArmIk::make(robot));
+  const MotionJudge judge(robot, world());
+  const SegmentFrame frame = planned_frame(robot, {{1.0, 0.0}, 1, "one"}, 0);
+  CameraIntrinsics camera = CameraIntrinsics::from_fov(160, 120, 80.0 * std::numbers::pi / 180.0);
+  camera.max_range_m = 1.6;
+  const FreeViews views(robot, ik, world(), judge, frame, camera.min_range_m, camera.max_range_m);
+  const SightLines sights(cut().bodies);
+  Rng rng(1, "points");
+  int drawn = 0;
+  for (std::size_t p = 0; p < cut().points.size(); p += 40) {
+    const Vec3& target = cut().points[p].front();
+    if (!views.may_be_in_range(target)) continue;
+    const auto q = views.at_point(
+        target, [&](const Vec3& from) { return sights.clear(from, target); }, rng);
+    if (!q) continue;
+    ++drawn;
+    EXPECT_TRUE(robot.within_limits(*q));
+    const Pose pose = frame.T_world_base * robot.T_base_camera(*q);
+    EXPECT_TRUE(sights.clear(pose.translation(), target));
+    const Vec3 seen = pose.inverse(Eigen::Isometry) * target;
+    ASSERT_GT(seen.z(), 0.0);
+    const Vec3 pixel(camera.fx * seen.x() / seen.z() + camera.cx,
+                     camera.fy * seen.y() / seen.z() + camera.cy, 1.0);
+    EXPECT_TRUE(pixel.x() > 0.0 && pixel.x() < 160.0 && pixel.y() > 0.0 && pixel.y() < 120.0);
+  }
+  EXPECT_GT(drawn, 20);
+}
+
+TEST(CutFruits, PointsLieOnTheirPatches) {
+  ASSERT_EQ(cut().points.size(), cut().patches.fruit.size());
+  for (std::size_t p = 0; p < cut().points.size(); ++p) {
+    ASSERT_FALSE(cut().points[p].empty());
+    const FruitTruth& fruit = world().fruits[static_cast<std::size_t>(cut().patches.fruit[p])];
+    for (const Vec3& point : cut().points[p]) EXPECT_LT((point - fruit.centre).norm(), 0.12);
+  }
 }
 
 TEST(PoolThinning, KeepsHomeAndEverythingThatWasSeen) {

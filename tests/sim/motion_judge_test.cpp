@@ -128,6 +128,27 @@ TEST(MotionJudge, HasNothingToSayOfNoMotion) {
   EXPECT_FALSE(verdict.plant_contact);
 }
 
+TEST(MotionJudge, SaysTheSameWithMoreStopsKept) {
+  const Scene scene = make_world(dense_1_world(), 1);
+  const RobotModel& robot = test::test_robot();
+  const MotionJudge one(robot, scene);
+  const MotionJudge three(robot, scene, 0.01, 3);
+  Rng rng(4, "judged at stops");
+  int touched = 0;
+  for (int i = 0; i < 24; ++i) {
+    const TrolleyState trolley{0.5 * static_cast<double>(rng.index(4)), 0.0};
+    Configuration q = robot.home("side_1");
+    for (int k = 0; k < q.size(); ++k) q[k] += rng.uniform(-0.7, 0.7);
+    const Verdict a = one.judge({q}, trolley, nullptr);
+    const Verdict b = three.judge({q}, trolley, nullptr);
+    EXPECT_EQ(a.collision, b.collision);
+    EXPECT_EQ(a.plant_contact, b.plant_contact);
+    touched += a.collision || a.plant_contact ? 1 : 0;
+  }
+  EXPECT_GT(touched, 2);
+  EXPECT_LT(touched, 22);
+}
+
 TEST(MotionJudge, LearnsWhatTheMapLearns) {
   const Scene scene;
   const RobotModel& robot = test::test_robot();

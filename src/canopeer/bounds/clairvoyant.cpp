@@ -121,13 +121,15 @@ double view_cost_s(const ViewWork& work, const CostTable& costs) {
 
 Expected<ClairvoyantPlan> plan_clairvoyant(const ViewPool& pool, const RobotModel& robot,
                                            const MotionJudge& judge, const MissionOptions& mission,
-                                           const FindRule& rule,
-                                           const ClairvoyantOptions& options) {
+                                           const FindRule& rule, const ClairvoyantOptions& options,
+                                           MotionVerdicts* verdicts) {
   if (auto ok = check_pool(pool, robot, mission); !ok) return tl::unexpected(ok.error());
   TourViewOptions thinning;
   thinning.per_segment = options.views_per_segment;
   const TourViews views = tour_views(pool, robot, rule.min_area_cm2, thinning);
-  PoolMotions motions(pool, views, robot, judge, mission, options.way_home_factor);
+  MotionVerdicts own;
+  PoolMotions motions(pool, views, robot, judge, mission, options.way_home_factor,
+                      verdicts != nullptr ? *verdicts : own);
 
   TourProblem problem;
   problem.segments = views.segments;

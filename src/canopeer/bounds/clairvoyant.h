@@ -7,6 +7,7 @@
 
 #include "canopeer/base/compute_cost.h"
 #include "canopeer/base/expected.h"
+#include "canopeer/bounds/motion_verdicts.h"
 #include "canopeer/bounds/view_pool.h"
 #include "canopeer/mission/mission_options.h"
 #include "canopeer/planner/playback/plan_file.h"
@@ -70,9 +71,12 @@ struct ClairvoyantPlan {
 /// Coverage orienteering by greedy choice, beam search and local search
 /// (tours/tour_search.h). Frames on the way are not reckoned with; executed, they add to it.
 ///
-/// The error: pool, mission and robot do not fit each other. The same arguments give the same plan.
+/// `verdicts` are those of earlier plans of the same pool, world and mission; they change the time
+/// that planning takes, not the plan. The error: pool, mission and robot do not fit each other. The
+/// same arguments give the same plan.
 [[nodiscard]] Expected<ClairvoyantPlan> plan_clairvoyant(
     const ViewPool& pool, const RobotModel& robot, const MotionJudge& judge,
-    const MissionOptions& mission, const FindRule& rule, const ClairvoyantOptions& options);
+    const MissionOptions& mission, const FindRule& rule, const ClairvoyantOptions& options,
+    MotionVerdicts* verdicts = nullptr);
 
 }  // namespace canopeer

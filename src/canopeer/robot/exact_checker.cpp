@@ -7,7 +7,9 @@
 #include <fcl/narrowphase/collision.h>
 
 #include <algorithm>
+#include <array>
 #include <deque>
+#include <map>
 #include <mutex>
 
 #include "canopeer/map/voxel_map.h"
@@ -80,22 +82,41 @@ struct MeshObstacles::Impl {
     mutable std::once_flag made_;
     mutable std::shared_ptr<Mesh> tree_;
   };
-  std::deque<Part> parts;
+  /// Parts with their middles in one cube of kGroupM.
+  struct Group {
+    Box bounds;  ///< of all
+    std::deque<Part> parts;
+  };
+  std::deque<Group> groups;
+
+  explicit Impl(const std::vector<TriangleMesh>& meshes_world) {
+    constexpr double kGroupM = 0.8;
+    std::map<std::array<int, 3>, Group> by_cube;
+    for (const TriangleMesh& mesh : meshes_world) {
+      if (mesh.triangles.empty()) continue;
+      const Box bounds = mesh.bounds();
+      const VoxelIndex cube = voxel_at(bounds.center(), kGroupM);
+      Group& group = by_cube[{cube.x(), cube.y(), cube.z()}];
+      group.bounds.extend(bounds);
+      group.parts.emplace_back(mesh);
+    }
+    for (auto& [cube, group] : by_cube) groups.push_back(std::move(group));
+  }
 
   [[nodiscard]] bool touch(const Placed& placed) const {
-    return std::any_of(parts.begin(), parts.end(), [&](const Part& part) {
+    const auto touches_part = [&](const Part& part) {
       return part.bounds().intersects(placed.bounds) &&
              in_contact(placed.geometry, placed.T_world_shape, &part.tree(), Pose::Identity());
+    };
+    return std::any_of(groups.begin(), groups.end(), [&](const Group& group) {
+      return group.bounds.intersects(placed.bounds) &&
+             std::any_of(group.parts.begin(), group.parts.end(), touches_part);
     });
   }
 };
 
 MeshObstacles::MeshObstacles(const std::vector<TriangleMesh>& meshes_world)
-    : impl_(std::make_unique<Impl>()) {
-  for (const TriangleMesh& mesh : meshes_world) {
-    if (!mesh.triangles.empty()) impl_->parts.emplace_back(mesh);
-  }
-}
+    : impl_(std::make_unique<Impl>(meshes_world)) {}
 MeshObstacles::~MeshObstacles() = default;
 MeshObstacles::MeshObstacles(MeshObstacles&&) noexcept = default;
 MeshObstacles& MeshObstacles::operator=(MeshObstacles&&) noexcept = default;

@@ -109,24 +109,30 @@ struct MotionJudge::Stop {
   MeshObstacles plants_{{}};
 };
 
-MotionJudge::MotionJudge(const RobotModel& robot, const Scene& scene, double step_m)
+MotionJudge::MotionJudge(const RobotModel& robot, const Scene& scene, double step_m, int stops)
     : step_rad_(step_m / kReach),
       robot_(robot),
       scene_(scene),
-      checker_(robot, structure_of(scene)) {}
+      checker_(robot, structure_of(scene)),
+      most_stops_(static_cast<std::size_t>(std::max(1, stops))) {}
 
 /// With the map in it.
 std::shared_ptr<MotionJudge::Stop> MotionJudge::stop_at(const TrolleyState& trolley,
                                                         const Configuration& q,
                                                         const VoxelMap* map) const {
-  const bool same_place = stop_ != nullptr && stop_->trolley.travel_m == trolley.travel_m &&
-                          stop_->trolley.lift_m == trolley.lift_m;
-  if (!same_place || (map != nullptr && map->resolution_m() != stop_->space.edge_m())) {
+  const auto known = std::find_if(stops_.begin(), stops_.end(), [&](const auto& stop) {
+    return stop->trolley.travel_m == trolley.travel_m && stop->trolley.lift_m == trolley.lift_m &&
+           (map == nullptr || map->resolution_m() == stop->space.edge_m());
+  });
+  if (known != stops_.end()) {
+    std::rotate(stops_.begin(), known, known + 1);
+  } else {
     const double edge_m = map != nullptr ? map->resolution_m() : kCellM;
-    stop_ = std::make_shared<Stop>(*this, trolley, edge_m, q);
+    if (stops_.size() >= most_stops_) stops_.pop_back();
+    stops_.insert(stops_.begin(), std::make_shared<Stop>(*this, trolley, edge_m, q));
   }
-  if (map != nullptr) stop_->space.add(*map);
-  return stop_;
+  if (map != nullptr) stops_.front()->space.add(*map);
+  return stops_.front();
 }
 
 Verdict MotionJudge::judge(const std::vector<Configuration>& waypoints, const TrolleyState& trolley,

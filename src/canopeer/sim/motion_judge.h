@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -21,9 +22,10 @@ struct Verdict {
 /// free. So verdicts are FCL's.
 class MotionJudge {
  public:
-  /// `step_m`: between two states looked at no point of the arm moves farther. `robot` and `scene`
+  /// `step_m`: between two states looked at no point of the arm moves farther. `stops`: places of
+  /// the trolley whose surroundings are kept, the last ones; 10 to 50 MB each. `robot` and `scene`
   /// outlive the judge.
-  MotionJudge(const RobotModel& robot, const Scene& scene, double step_m = 0.01);
+  MotionJudge(const RobotModel& robot, const Scene& scene, double step_m = 0.01, int stops = 1);
 
   /// Motion along the waypoints with the trolley at rest; `map`: what is known when it starts, or
   /// null.
@@ -41,8 +43,9 @@ class MotionJudge {
   const RobotModel& robot_;
   const Scene& scene_;
   ExactChecker checker_;
-  mutable std::mutex mutex_;  // of stop_ and the space in it
-  mutable std::shared_ptr<Stop> stop_;
+  std::size_t most_stops_;
+  mutable std::mutex mutex_;                          // of stops_ and the spaces in them
+  mutable std::vector<std::shared_ptr<Stop>> stops_;  // the last one in front
 };
 
 }  // namespace canopeer

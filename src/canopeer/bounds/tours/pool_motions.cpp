@@ -19,22 +19,26 @@ double drive_s(const Joint& axis, double distance_m) {
 
 PoolMotions::PoolMotions(const ViewPool& pool, const TourViews& views, const RobotModel& robot,
                          const MotionJudge& judge, const MissionOptions& mission,
-                         double way_home_factor)
+                         double way_home_factor, MotionVerdicts& verdicts)
     : pool_(pool),
       views_(views),
       robot_(robot),
       judge_(judge),
       mission_(mission),
-      way_home_factor_(way_home_factor) {
+      way_home_factor_(way_home_factor),
+      verdicts_(verdicts) {
   for (const auto& segment : views.segments) {
     edges_.emplace_back(segment.size() * segment.size());
     home_s_.emplace_back(segment.size(), -1.0);
   }
 }
 
+std::size_t PoolMotions::in_pool(int segment, int view) const {
+  return views_.pool_index[static_cast<std::size_t>(segment)][static_cast<std::size_t>(view)];
+}
+
 const Configuration& PoolMotions::q(int segment, int view) const {
-  const auto s = static_cast<std::size_t>(segment);
-  return pool_.segments[s][views_.pool_index[s][static_cast<std::size_t>(view)]].q;
+  return pool_.segments[static_cast<std::size_t>(segment)][in_pool(segment, view)].q;
 }
 
 PoolMotions::Edge& PoolMotions::edge(int segment, int from, int to) {
@@ -52,16 +56,25 @@ PoolMotions::Edge& PoolMotions::edge(int segment, int from, int to) {
 
 double PoolMotions::time_s(int segment, int from, int to) { return edge(segment, from, to).time_s; }
 
+bool PoolMotions::judge(int segment, int from, int to) {
+  const auto s = static_cast<std::size_t>(segment);
+  if (const auto known = verdicts_.known(s, in_pool(segment, from), in_pool(segment, to))) {
+    return *known;
+  }
+  const Configuration& a = q(segment, from);
+  const Configuration b = robot_.endless().nearest(q(segment, to), a);
+  const Verdict verdict = judge_.judge({a, b}, mission_.segments[s].trolley, nullptr);
+  const bool free = !verdict.collision && !verdict.plant_contact;
+  verdicts_.keep(s, in_pool(segment, from), in_pool(segment, to), free);
+  return free;
+}
+
 bool PoolMotions::free(int segment, int from, int to) {
   Edge& wanted = edge(segment, from, to);
   if (!wanted.judged) {
     wanted.judged = true;
     ++judged_;
-    const Configuration& a = q(segment, from);
-    const Configuration b = robot_.endless().nearest(q(segment, to), a);
-    const TrolleyState& trolley = mission_.segments[static_cast<std::size_t>(segment)].trolley;
-    const Verdict verdict = judge_.judge({a, b}, trolley, nullptr);
-    if (verdict.collision || verdict.plant_contact) {
+    if (!judge(segment, from, to)) {
       ++blocked_;
       wanted.time_s = std::numeric_limits<float>::infinity();
     }

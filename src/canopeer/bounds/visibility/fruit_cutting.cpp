@@ -101,6 +101,10 @@ double area_cm2_of(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>&
   return 0.5 * (b - a).cross(c - a).norm() * 1e4;
 }
 
+Vec3 middle_of(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
+  return ((mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0F).cast<double>();
+}
+
 /// The part's triangles that reach into the box; empty when there are none.
 NumberedPart part_near(const ScenePart& part, const Pose& T, const Box& box) {
   NumberedPart near;
@@ -141,14 +145,16 @@ CutFruits cut_fruits(const Scene& scene, double patch_m) {
   scene.for_each_part([&](const ScenePart& part, const Pose& T, const SceneInstance* copy) {
     if (!counted_body(scene, part, copy) || part.mesh.triangles.empty()) return;
     NumberedPart body{body_in_world(part, T, patch_m), {}};
-    body.numbers = cells_of_mesh(body.part.mesh, patch_m);
+    const std::vector<std::uint32_t> cell = cells_of_mesh(body.part.mesh, patch_m);
     const auto first = static_cast<std::uint32_t>(patches.fruit.size());
-    const std::uint32_t cells = *std::max_element(body.numbers.begin(), body.numbers.end()) + 1;
+    const std::uint32_t cells = *std::max_element(cell.begin(), cell.end()) + 1;
     patches.fruit.resize(first + cells, fruit_of(part, copy));
+    cut.points.resize(first + cells);
     std::vector<double> area(cells, 0.0);
-    for (std::size_t i = 0; i < body.numbers.size(); ++i) {
-      area[body.numbers[i]] += area_cm2_of(body.part.mesh, body.part.mesh.triangles[i]);
-      body.numbers[i] += first;
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+      area[cell[i]] += area_cm2_of(body.part.mesh, body.part.mesh.triangles[i]);
+      body.numbers.push_back(first + cell[i]);
+      cut.points[first + cell[i]].push_back(middle_of(body.part.mesh, body.part.mesh.triangles[i]));
     }
     for (const double a : area) {
       patches.area_cm2.push_back(static_cast<float>(a));

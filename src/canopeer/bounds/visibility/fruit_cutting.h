@@ -11,6 +11,7 @@ namespace canopeer {
 /// The counted fruits' bodies, world, each triangle with the number of its patch.
 struct CutFruits {
   FruitPatches patches;
+  std::vector<std::vector<Vec3>> points;  ///< by patch: the middles of its triangles, world
   std::vector<NumberedPart> bodies;
 };
 

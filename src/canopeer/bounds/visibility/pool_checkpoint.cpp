@@ -10,7 +10,7 @@
 namespace canopeer {
 namespace {
 
-constexpr std::string_view kCheckpointMagic = "CANOPEER-VIEWS-PART 1\n";
+constexpr std::string_view kCheckpointMagic = "CANOPEER-VIEWS-PART 2\n";
 
 /// None, an old one or a damaged one is no checkpoint: sampling begins anew.
 std::optional<PoolState> read_checkpoint(const std::filesystem::path& path, const std::string& key,

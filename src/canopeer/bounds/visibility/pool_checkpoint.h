@@ -16,10 +16,11 @@ struct PoolState {
   std::vector<PoolView> views;            ///< that show something; the first is at home
   std::vector<std::uint32_t> times_seen;  ///< by patch, in this segment
   PoolCourse course;                      ///< of this segment
+  int again = 0;                          ///< segments gone through again, round after round
 
   template <typename Archive>
   void serialize(Archive& archive) {
-    archive(pool, batches, views, times_seen, course);
+    archive(pool, batches, views, times_seen, course, again);
   }
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <string>
@@ -57,6 +58,8 @@ void count_in(const PoolView& view, const FruitPatches& patches, PoolState& stat
   }
 }
 
+}  // namespace
+
 int fruits_seen(const FruitPatches& patches, const std::vector<std::uint32_t>& times_seen) {
   std::set<int> fruits;
   for (std::size_t p = 0; p < times_seen.size(); ++p) {
@@ -65,7 +68,13 @@ int fruits_seen(const FruitPatches& patches, const std::vector<std::uint32_t>& t
   return static_cast<int>(fruits.size());
 }
 
-}  // namespace
+std::vector<std::uint32_t> rarely_seen(const std::vector<std::uint32_t>& patches,
+                                       const std::vector<std::uint32_t>& times_seen) {
+  std::vector<std::uint32_t> rare;
+  std::copy_if(patches.begin(), patches.end(), std::back_inserter(rare),
+               [&](std::uint32_t p) { return times_seen[p] <= 1; });
+  return rare;
+}
 
 SegmentSampler::SegmentSampler(const SampledWorld& world, const SegmentFrame& frame,
                                const CutFruits& fruits, const CameraIntrinsics& camera,
@@ -76,11 +85,27 @@ SegmentSampler::SegmentSampler(const SampledWorld& world, const SegmentFrame& fr
       seed_(seed),
       free_(world.robot, world.ik, world.scene, world.judge, frame, camera.min_range_m,
             camera.max_range_m),
-      picture_(parts_near(world, frame, fruits, camera)) {}
+      parts_(parts_near(world, frame, fruits, camera)),
+      picture_(parts_),
+      sights_(parts_),
+      points_(fruits.points) {
+  for (std::uint32_t p = 0; p < points_.size(); ++p) {
+    if (free_.may_be_in_range(points_[p].front())) patches_near_.push_back(p);
+  }
+}
 
 int SegmentSampler::least_samples(int aimed) const {
   const auto wanted = static_cast<std::uint64_t>(aimed) * free_.fruits().size();
   return static_cast<int>((wanted * kRound + kAimed - 1) / kAimed);
+}
+
+std::optional<Configuration> SegmentSampler::draw_at(std::uint32_t patch,
+                                                     const std::string& stream) const {
+  Rng rng(seed_, stream, patch);
+  const std::vector<Vec3>& points = points_[patch];
+  const Vec3& target = points[rng.index(points.size())];
+  return free_.at_point(
+      target, [&](const Vec3& from) { return sights_.clear(from, target); }, rng);
 }
 
 std::optional<Configuration> SegmentSampler::draw(std::uint64_t number) const {
@@ -109,13 +134,7 @@ void SegmentSampler::look_from_home(PoolState& state) const {
   count_in(state.views.back(), state.pool.patches, state);
 }
 
-void SegmentSampler::sample(int count, PoolState& state) const {
-  const std::uint64_t first =
-      static_cast<std::uint64_t>(state.batches) * static_cast<std::uint64_t>(count);
-  std::vector<std::optional<PoolView>> found(static_cast<std::size_t>(count));
-  oneapi::tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
-    if (const auto q = draw(first + i)) found[i] = look(*q);
-  });
+void SegmentSampler::take_in(std::vector<std::optional<PoolView>> found, PoolState& state) const {
   for (auto& view : found) {
     if (!view) continue;
     ++state.course.sampled;
@@ -123,9 +142,40 @@ void SegmentSampler::sample(int count, PoolState& state) const {
     count_in(*view, state.pool.patches, state);
     state.views.push_back(std::move(*view));
   }
-  ++state.batches;
   state.course.fruits = fruits_seen(state.pool.patches, state.times_seen);
   state.pool.course.push_back(state.course);
+}
+
+void SegmentSampler::sample(int count, PoolState& state) const {
+  const auto plain = static_cast<std::size_t>(count);
+  const std::uint64_t first = static_cast<std::uint64_t>(state.batches) * plain;
+  std::vector<std::uint32_t> rare;
+  if (state.batches > 0) rare = rarely_seen(patches_near_, state.times_seen);
+  const std::string stream = "patches of segment " + std::to_string(frame_.index) + ", batch " +
+                             std::to_string(state.batches);
+  std::vector<std::optional<PoolView>> found(plain + rare.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
+    const auto q = i < plain ? draw(first + i) : draw_at(rare[i - plain], stream);
+    if (q) found[i] = look(*q);
+  });
+  ++state.batches;
+  take_in(std::move(found), state);
+}
+
+void SegmentSampler::aim_again(const std::vector<std::uint32_t>& patches, int times, int round,
+                               PoolState& state) const {
+  const std::string stream = "patches again, segment " + std::to_string(frame_.index) + ", round " +
+                             std::to_string(round) + ", ";
+  std::vector<std::uint32_t> near;
+  std::set_intersection(patches.begin(), patches.end(), patches_near_.begin(), patches_near_.end(),
+                        std::back_inserter(near));
+  const auto often = static_cast<std::size_t>(times);
+  std::vector<std::optional<PoolView>> found(near.size() * often);
+  oneapi::tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
+    const auto q = draw_at(near[i / often], stream + std::to_string(i % often));
+    if (q) found[i] = look(*q);
+  });
+  take_in(std::move(found), state);
 }
 
 }  // namespace canopeer

@@ -4,13 +4,17 @@
 #include <numbers>
 #include <string>
 
+#include "canopeer/robot/arm_reach.h"
+
 namespace canopeer {
 namespace {
 
-constexpr double kCellM = 0.01;  // of the quick look at what is near
-constexpr int kTries = 8;        // positions, directions or joints until one is free
-constexpr int kDraws = 64;       // positions until one is in range
-constexpr int kStates = 12;      // ways of holding the camera that are looked at for one view
+constexpr double kCellM = 0.01;    // of the quick look at what is near
+constexpr int kTries = 8;          // positions, directions or joints until one is free
+constexpr int kDraws = 64;         // positions until one is in range
+constexpr int kSights = 512;       // positions round a point until it is in sight, seldom so many
+constexpr double kOffAxis = 0.45;  // tangent
+constexpr int kStates = 12;        // ways of holding the camera that are looked at for one view
 
 Vec3 point_in(const Box& box, Rng& rng) {
   Vec3 p;
@@ -55,10 +59,12 @@ FreeViews::FreeViews(const RobotModel& robot, const ArmIk& ik, const Scene& scen
       far_m_(far_m),
       T_base_world_(frame.T_world_base.inverse(Eigen::Isometry)) {
   for (const FruitTruth& fruit : scene.fruits) {
-    if (fruit.counted && near_box(frame.workspace_base, T_base_world_ * fruit.centre, far_m)) {
-      fruits_.push_back(fruit.centre);
-    }
+    if (fruit.counted && may_be_in_range(fruit.centre)) fruits_.push_back(fruit.centre);
   }
+}
+
+bool FreeViews::may_be_in_range(const Vec3& point_world) const {
+  return near_box(frame_.workspace_base, T_base_world_ * point_world, far_m_);
 }
 
 std::optional<Configuration> FreeViews::aimed(std::size_t fruit, Rng& rng) const {
@@ -73,6 +79,25 @@ std::optional<Configuration> FreeViews::aimed(std::size_t fruit, Rng& rng) const
       position = point_in(part, rng);
     }
     if (auto q = reach(position, target)) return q;
+  }
+  return std::nullopt;
+}
+
+std::optional<Configuration> FreeViews::at_point(const Vec3& target_world,
+                                                 const std::function<bool(const Vec3&)>& in_sight,
+                                                 Rng& rng) const {
+  const Vec3 target = T_base_world_ * target_world;
+  const double reach_m = arm_reach_m(robot_);
+  int tries = 0;
+  for (int k = 0; k < kSights && tries < kTries; ++k) {
+    const double distance = rng.uniform(near_m_, far_m_);
+    const Vec3 position = target + distance * direction(rng);
+    const bool inside = frame_.workspace_base.contains(position);
+    if (!inside && (position.norm() > reach_m || !rng.chance(0.3))) continue;
+    if (!in_sight(frame_.T_world_base * position)) continue;
+    const Vec3 axis = target + rng.uniform(0.0, kOffAxis) * distance * direction(rng);
+    if (auto q = reach(position, axis)) return q;
+    ++tries;
   }
   return std::nullopt;
 }

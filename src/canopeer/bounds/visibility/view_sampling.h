@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -26,11 +27,18 @@ class FreeViews {
   FreeViews(const RobotModel& robot, const ArmIk& ik, const Scene& scene, const MotionJudge& judge,
             const SegmentFrame& frame, double near_m, double far_m);
 
+  /// Whether a camera in the workspace may have a point (world) in range.
+  [[nodiscard]] bool may_be_in_range(const Vec3& point_world) const;
   /// Centres of the counted fruits that a camera in the workspace may have in range, world.
   [[nodiscard]] const std::vector<Vec3>& fruits() const { return fruits_; }
 
   /// The camera in the workspace, uniform, at fruits()[fruit], within the range.
   [[nodiscard]] std::optional<Configuration> aimed(std::size_t fruit, Rng& rng) const;
+  /// The camera in the workspace, at a point (world), uniform in direction and distance of those
+  /// positions from which it is in sight.
+  [[nodiscard]] std::optional<Configuration> at_point(
+      const Vec3& target_world, const std::function<bool(const Vec3& from_world)>& in_sight,
+      Rng& rng) const;
   /// The camera in the workspace and its axis, both uniform.
   [[nodiscard]] std::optional<Configuration> in_workspace(Rng& rng) const;
   /// The joints uniform within their limits, wherever that takes the camera.
