@@ -27,6 +27,7 @@ struct SmallMission {
     options.most = 240;
     options.aimed = 2;
     options.image_width = 80;
+    options.again = 1;
   }
 
   [[nodiscard]] Expected<ViewPool> build(const PoolCallbacks& callbacks = {}) const {

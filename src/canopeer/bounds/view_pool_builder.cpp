@@ -15,7 +15,7 @@ namespace canopeer {
 namespace {
 
 constexpr double kFirstShare = 0.9;  // of the work, a guess: before segments are gone through again
-constexpr int kTimesAgain = 32; // that a patch is aimed at when a segment is gone through again
+constexpr int kTriesAView = 32;      // of the first round, when a segment is gone through again
 
 PoolProgress progress_of(const PoolState& state, int segments, const PoolOptions& options) {
   PoolProgress progress;
@@ -178,8 +178,8 @@ class PoolBuilder {
     auto& views = state_.pool.segments[static_cast<std::size_t>(segment)];
     state_.views = std::move(views);
     state_.course.segment = segment;
-    sampler.aim_again(rarely_seen(all_patches(state_.pool), state_.pool.times_seen), kTimesAgain,
-                      state_.again / segments(), state_);
+    sampler.aim_again(rarely_seen(all_patches(state_.pool), state_.pool.times_seen),
+                      kTriesAView * options_.most, state_.again / segments(), state_);
     views = finished(state_, world_.robot, options_);
     ++state_.again;
     if (callbacks_.progress) callbacks_.progress(progress_again());

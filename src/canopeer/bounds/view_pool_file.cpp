@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <functional>
-#include <string_view>
 
-#include "canopeer/bounds/visibility/packed_file.h"
+#include "canopeer/geometry/packed_file.h"
 #include "canopeer/geometry/state_archive.h"
 
 namespace canopeer {
 namespace {
 
-constexpr std::string_view kPoolMagic = "CANOPEER-VIEWS 1\n";
+constexpr PackedKind kPoolKind{"CANOPEER-VIEWS 1\n", "pool of views"};
 
 /// What whoever works with a pool takes for granted.
 Expected<void> check_contents(const ViewPool& pool) {
@@ -36,11 +35,11 @@ Expected<void> check_contents(const ViewPool& pool) {
 }  // namespace
 
 Expected<void> write_view_pool(const std::filesystem::path& path, const ViewPool& pool) {
-  return write_packed(path, kPoolMagic, state_bytes(pool));
+  return write_packed(path, kPoolKind, state_bytes(pool));
 }
 
 Expected<ViewPool> read_view_pool(const std::filesystem::path& path) {
-  const auto bytes = read_packed(path, kPoolMagic);
+  const auto bytes = read_packed(path, kPoolKind);
   if (!bytes) return tl::unexpected(bytes.error());
   ViewPool pool;
   if (auto ok = read_state_bytes(*bytes, pool); !ok) return fail_in(path.string(), ok.error());

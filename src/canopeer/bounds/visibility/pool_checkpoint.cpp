@@ -1,22 +1,21 @@
 #include "canopeer/bounds/visibility/pool_checkpoint.h"
 
 #include <optional>
-#include <string_view>
 #include <utility>
 
-#include "canopeer/bounds/visibility/packed_file.h"
+#include "canopeer/geometry/packed_file.h"
 #include "canopeer/geometry/state_archive.h"
 
 namespace canopeer {
 namespace {
 
-constexpr std::string_view kCheckpointMagic = "CANOPEER-VIEWS-PART 2\n";
+constexpr PackedKind kCheckpointKind{"CANOPEER-VIEWS-PART 2\n", "part of a pool of views"};
 
 /// None, an old one or a damaged one is no checkpoint: sampling begins anew.
 std::optional<PoolState> read_checkpoint(const std::filesystem::path& path, const std::string& key,
                                          const FruitPatches& patches) {
   if (path.empty() || !std::filesystem::exists(path)) return std::nullopt;
-  const auto bytes = read_packed(path, kCheckpointMagic);
+  const auto bytes = read_packed(path, kCheckpointKind);
   if (!bytes) return std::nullopt;
   PoolState state;
   if (!read_state_bytes(*bytes, state)) return std::nullopt;
@@ -41,7 +40,7 @@ PoolState checkpoint_or_start(const std::filesystem::path& path, const std::stri
 }
 
 Expected<void> write_checkpoint(const std::filesystem::path& path, const PoolState& state) {
-  return write_packed(path, kCheckpointMagic, state_bytes(state));
+  return write_packed(path, kCheckpointKind, state_bytes(state));
 }
 
 }  // namespace canopeer

@@ -20,6 +20,7 @@ namespace {
 constexpr std::uint64_t kRound = 20;
 constexpr std::uint64_t kAimed = 13;
 constexpr std::uint64_t kInWorkspace = 4;
+constexpr std::size_t kMostTimes = 32;  // that a patch is aimed at again
 
 /// Farthest that a pixel's surface may be, Euclidean.
 double farthest_m(const CameraIntrinsics& camera) {
@@ -162,14 +163,16 @@ void SegmentSampler::sample(int count, PoolState& state) const {
   take_in(std::move(found), state);
 }
 
-void SegmentSampler::aim_again(const std::vector<std::uint32_t>& patches, int times, int round,
+void SegmentSampler::aim_again(const std::vector<std::uint32_t>& patches, int tries, int round,
                                PoolState& state) const {
   const std::string stream = "patches again, segment " + std::to_string(frame_.index) + ", round " +
                              std::to_string(round) + ", ";
   std::vector<std::uint32_t> near;
   std::set_intersection(patches.begin(), patches.end(), patches_near_.begin(), patches_near_.end(),
                         std::back_inserter(near));
-  const auto often = static_cast<std::size_t>(times);
+  if (near.empty()) return;
+  const std::size_t often =
+      std::clamp<std::size_t>(static_cast<std::size_t>(tries) / near.size(), 1, kMostTimes);
   std::vector<std::optional<PoolView>> found(near.size() * often);
   oneapi::tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
     const auto q = draw_at(near[i / often], stream + std::to_string(i % often));

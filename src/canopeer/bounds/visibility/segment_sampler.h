@@ -42,8 +42,9 @@ class SegmentSampler {
   /// only one of this segment has shown. Those that find no free configuration are left out; so are
   /// views that show nothing.
   void sample(int count, PoolState& state) const;
-  /// Aims so often at each of these patches that may be in range. `round` tells streams apart.
-  void aim_again(const std::vector<std::uint32_t>& patches, int times, int round,
+  /// Aims at each of these patches that may be in range, 32 times or less: `tries` times in all,
+  /// about, and once in any case. `round` tells streams apart.
+  void aim_again(const std::vector<std::uint32_t>& patches, int tries, int round,
                  PoolState& state) const;
   /// So many until each fruit in range has been aimed at `aimed` times.
   [[nodiscard]] int least_samples(int aimed) const;
