@@ -14,5 +14,5 @@ server=$!
 until link=$(grep -om1 'http://127[^ ]*' "$folder/link"); do sleep 0.1; done
 node "$folder/film.mjs" "$link" "$folder/pictures" 200
 ffmpeg -loglevel error -y -framerate 10 -i "$folder/pictures/%04d.png" -vf scale=960:-2:flags=lanczos \
-  -c:v libwebp_anim -lossless 0 -quality 55 -compression_level 6 -loop 0 "$out"
+  -c:v libwebp_anim -lossless 0 -quality 70 -compression_level 6 -loop 0 "$out"
 ls -l "$out"

@@ -10,13 +10,13 @@ const page = await browser.newPage({ viewport: { width: Number(width), height: N
 page.setDefaultTimeout(300000);
 await page.goto(url);
 await page.waitForFunction(() => window.canopeer?.timeline.end && window.canopeer.scene);
+await page.getByRole("button", { name: "Layers" }).click(); // folds them up: they hide plants
 await page.evaluate(() => window.canopeer.look("row"));
 await page.waitForTimeout(1500); // the camera flies there
 const duration = await page.evaluate(() => window.canopeer.timeline.duration);
 for (let i = 0; i < Number(pictures); ++i) {
   await page.evaluate((t) => window.canopeer.seek(t), (duration * i) / (Number(pictures) - 1));
-  await page.evaluate(() => window.canopeer.scene.probe.turn(0));
-  await page.waitForFunction(() => window.canopeer.scene.probe.settled);
+  await page.evaluate(() => window.canopeer.scene.probe.still());
   await page.screenshot({ path: join(folder, `${String(i).padStart(4, "0")}.png`) });
 }
 await browser.close();

@@ -15,6 +15,9 @@ import { Theme } from "./theme.ts";
 /** Milliseconds between two updates of the panels while the run plays. */
 const kPanelPause_ms = 100;
 
+/** The same while what is there already comes in. */
+const kLoadingPause_ms = 400;
+
 /** The page: takes the messages, keeps the moment that is shown, and tells scene and panels. */
 export class App implements Actions {
   readonly theme = new Theme();
@@ -34,6 +37,7 @@ export class App implements Actions {
   private awake = false;
   private lastTick = 0;
   private panelsAt = 0;
+  private shownStep = -1;
   private shownChanges = -1;
   private shownT = -1;
 
@@ -169,7 +173,7 @@ export class App implements Actions {
     this.playback.restart();
     this.panels.pictures.close();
     this.scene?.load(this.timeline);
-    this.shownChanges = -1;
+    this.shownChanges = this.shownStep = -1;
   }
 
   private take(message: Message | null): void {
@@ -236,18 +240,28 @@ export class App implements Actions {
     this.lastTick = now;
     const { t } = this.playback;
     const moment = this.moment();
-    const changed = t !== this.shownT || this.timeline.changes !== this.shownChanges;
-    if (changed) this.scene?.show(moment);
-    if (!more || now - this.panelsAt > kPanelPause_ms) {
+    const { changes } = this.timeline;
+    // While a run comes in, what is later than this moment changes nothing in its picture.
+    const changed = this.loading ? moment.step !== this.shownStep : changes !== this.shownChanges;
+    if (t !== this.shownT || changed) {
+      this.scene?.show(moment);
+      this.shownT = t;
+      this.shownStep = moment.step;
+      this.shownChanges = changes;
+    }
+    if (now - this.panelsAt >= (this.loading ? kLoadingPause_ms : more ? kPanelPause_ms : 0)) {
       this.panels.update(moment);
       this.panelsAt = now;
     }
-    this.shownT = t;
-    this.shownChanges = this.timeline.changes;
     if (more && !this.awake) {
       this.awake = true;
       requestAnimationFrame((next) => this.tick(next));
     }
+  }
+
+  /** What was there before this page is still coming. */
+  private get loading(): boolean {
+    return this.timeline.arrived < 1 && !this.timeline.complete;
   }
 
   private sayState(): void {

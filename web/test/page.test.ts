@@ -83,15 +83,18 @@ test("nothing of robot and truth is left when they are cleared, and they come ag
   assert.ok(robot && truth);
   const parts = { robot: new RobotModel(), truth: new TruthModel(), fruits: new TrueFruits() };
   const count = () => [parts.robot.group, parts.truth.plants, parts.truth.around, parts.fruits.group].map((g) => g.children.length);
+  const detail = { pixels: 500, cellPixels: 1, coarse: false, budget_ms: Infinity };
   const set = () => {
     parts.robot.set(robot);
     parts.truth.set(truth);
+    parts.truth.update(new THREE.PerspectiveCamera(), detail);
     parts.fruits.set(truth);
     parts.robot.move({ q: [0, 0, 0, 0, 0, 0], travel: 0, lift: 0 });
   };
   set();
   const whole = count();
-  assert.ok(whole.every((n) => n > 0));
+  const [robotParts, plants, around, fruits] = whole;
+  assert.ok(robotParts > 0 && plants > 0 && around === 0 && fruits > 0);
   for (const part of Object.values(parts)) part.clear();
   assert.deepEqual(count(), [0, 0, 0, 0]);
   assert.ok(parts.fruits.box().isEmpty());

@@ -1,10 +1,14 @@
 import assert from "node:assert/strict";
 import test from "node:test";
+import * as THREE from "three";
+import type { Truth } from "../src/data/messages.ts";
 import { hull } from "../src/panels/outline.ts";
 import { formatPlace, parsePlace } from "../src/place.ts";
 import { viridis } from "../src/pictures/false_color.ts";
 import { chunkVoxels, coarser, kChunk } from "../src/scene/block_bits.ts";
+import { FarPoints } from "../src/scene/far_points.ts";
 import { simplify } from "../src/scene/simplify.ts";
+import { partsByTile, tileMesh } from "../src/scene/truth_tiles.ts";
 import { surface, surfacePoint } from "../src/scene/superellipsoid.ts";
 import { brief, clock, shortClock } from "../src/ui/format.ts";
 import { random } from "./made/frames.ts";
@@ -91,6 +95,32 @@ test("a simplified mesh has fewer triangles, none of them flat", () => {
   assert.ok(small.triangles.length > 0 && small.triangles.length < triangles.length / 4);
   for (let i = 0; i < small.triangles.length; i += 3)
     assert.equal(new Set(small.triangles.subarray(i, i + 3)).size, 3);
+});
+
+test("tiles have all triangles, each once, where they were", () => {
+  const next = random(7);
+  const truth: Truth = {
+    type: "truth",
+    vertices: Float32Array.from({ length: 3 * 300 }, () => 4 * next() - 2),
+    triangles: Uint32Array.from({ length: 3 * 200 }, () => Math.floor(300 * next())),
+    parts: Array.from({ length: 20 }, (_, i) => ({ what: "leaf", color: [i, 100, 50], first: 10 * i, triangles: 10 })),
+    fruits: [],
+  };
+  const corners = ({ vertices, triangles }: { vertices: Float32Array; triangles: Uint32Array }) =>
+    Array.from({ length: triangles.length / 3 }, (_, i) =>
+      [...triangles.subarray(3 * i, 3 * i + 3)].map((v) => vertices.subarray(3 * v, 3 * v + 3).join()).join(";"));
+  const tiles = partsByTile(truth, truth.parts);
+  assert.ok(tiles.length > 4);
+  assert.deepEqual(tiles.flatMap((parts) => corners(tileMesh(truth, parts))).sort(), corners(truth).sort());
+});
+
+test("cells of several chunks are drawn where they are, below zero too", () => {
+  const cells = { count: 1, cells: Uint8Array.of(1, 2, 3, 1), normals: Int8Array.of(0, 0, 127, 0) };
+  const far = new FarPoints(new THREE.Material());
+  far.set([{ cells, begin: [8, 0, -8] }, { cells, begin: [-800, 16, 0] }]);
+  assert.deepEqual([...far.points.geometry.getAttribute("cell").array], [9, 2, -5, 1, -799, 18, 3, 1]);
+  far.set([]);
+  assert.ok(!far.points.visible);
 });
 
 test("places in links are read and written", () => {

@@ -39,8 +39,10 @@ export class Octets {
     if (count * (12 + each) > left)
       throw new FrameError(`${this.where}: ${left} octets are too few for ${count} blocks`);
     const blocks: Blocks = { index: new Int32Array(3 * count), octets: new Uint8Array(each * count), each };
+    const numbers = new DataView(this.bytes.buffer, this.bytes.byteOffset);
     for (let i = 0; i < count; ++i) {
-      blocks.index.set(this.int32(3), 3 * i);
+      for (let k = 0; k < 3; ++k) blocks.index[3 * i + k] = numbers.getInt32(this.at + 4 * k, true);
+      this.at += 12;
       blocks.octets.set(this.take(each), each * i);
     }
     return blocks;

@@ -1,6 +1,7 @@
 import * as THREE from "three";
 import { type BlockHistory, blockIndex, blockKey } from "../data/block_history.ts";
 import { type ChunkVoxels, chunkVoxels, coarser, kChunk, kChunkBlocks } from "./block_bits.ts";
+import { type FarCells, FarPoints } from "./far_points.ts";
 
 /** What a cloud of voxels looks like. */
 export interface CloudLook {
@@ -8,7 +9,7 @@ export interface CloudLook {
   sets: number;
   /** Voxels with neighbours all around are left out. */
   hideInner: boolean;
-  /** Draw one point per voxel, per 2 × 2 × 2 and per 4 × 4 × 4 voxels. */
+  /** Draw one point per voxel, per 2 × 2 × 2, 4 × 4 × 4 and so on. */
   points: THREE.ShaderMaterial[];
   /** Draws one cube per voxel near the camera; none: always points. */
   cubes?: THREE.ShaderMaterial;
@@ -18,8 +19,11 @@ interface Chunk {
   box: THREE.Box3;
   origin: THREE.Vector3;
   voxels: ChunkVoxels;
-  /** By level: voxels, and larger cells; made when they are needed. */
+  /** By level: voxels, and larger cells; made when they are needed. The largest are drawn with those of other chunks. */
   points: THREE.Points[];
+  largest: ChunkVoxels | null;
+  /** −1: cubes. */
+  level: number;
   cubes: THREE.Mesh | null;
 }
 
@@ -27,7 +31,7 @@ interface Chunk {
 export interface Detail {
   /** Cubes up to this distance from the camera, metres. */
   cubesWithin: number;
-  /** Cells of twice the size beyond this one, and of twice that beyond its double. */
+  /** Cells of twice the size beyond this one, of twice that beyond its double, and so on. */
   coarseBeyond: number;
   /** Milliseconds that may be spent on new chunks. */
   budget_ms: number;
@@ -41,10 +45,15 @@ export class BlockCloud {
   private readonly blocks = new Map<number, { version: number; octets: Uint8Array }>();
   private readonly chunks = new Map<number, Chunk>();
   private readonly dirty = new Set<number>();
+  private readonly far: FarPoints;
+  private farChanged = false;
   private shown = -1;
   private resolution = 0.01;
 
-  constructor(private readonly look: CloudLook) {}
+  constructor(private readonly look: CloudLook) {
+    this.far = new FarPoints(look.points[look.points.length - 1]);
+    this.group.add(this.far.points);
+  }
 
   /** Voxels that are drawn. */
   get count(): number {
@@ -129,7 +138,7 @@ export class BlockCloud {
     const edge = kChunk * this.resolution;
     const origin = new THREE.Vector3(cx, cy, cz).multiplyScalar(edge);
     const box = new THREE.Box3(origin, origin.clone().addScalar(edge));
-    this.chunks.set(key, { box, origin, voxels, points: [], cubes: null });
+    this.chunks.set(key, { box, origin, voxels, points: [], largest: null, level: 0, cubes: null });
   }
 
   private makeCubes(voxels: ChunkVoxels, box: THREE.Box3): THREE.Mesh {
@@ -154,28 +163,41 @@ export class BlockCloud {
     const near = [...this.chunks.values()]
       .map((chunk) => ({ chunk, distance: chunk.box.distanceToPoint(camera.position) }))
       .sort((a, b) => a.distance - b.distance);
+    const coarsest = this.look.points.length - 1;
     let left = this.look.cubes ? this.cubeLimit : 0;
     for (const { chunk, distance } of near) {
       left -= chunk.voxels.count;
       const asCubes = distance < cubesWithin && left >= 0;
-      const level = asCubes ? -1 : distance < coarseBeyond ? 0 : distance < 2 * coarseBeyond ? 1 : 2;
+      const level = asCubes ? -1 : Math.min(coarsest, Math.max(0, 1 + Math.floor(Math.log2(distance / coarseBeyond))));
+      if (chunk.level !== level && (chunk.level === coarsest || level === coarsest)) this.farChanged = true;
+      chunk.level = level;
       if (asCubes) chunk.cubes ??= this.place(this.makeCubes(chunk.voxels, chunk.box), chunk.origin);
-      else this.makeLevel(chunk, level);
+      else if (level === coarsest) chunk.largest ??= coarserBy(level, chunk.voxels);
+      else chunk.points[level] ??= this.place(this.makePoints(chunk, level), chunk.origin);
       if (chunk.cubes) chunk.cubes.visible = asCubes;
       chunk.points.forEach((points, l) => (points.visible = l === level));
     }
+    if (this.farChanged) this.far.set([...this.farCells(coarsest)]);
+    this.farChanged = false;
   }
 
-  private makeLevel(chunk: Chunk, level: number): void {
-    if (chunk.points[level]) return;
-    let voxels = chunk.voxels;
-    for (let l = 0; l < level; ++l) voxels = coarser(voxels);
-    chunk.points[level] = this.place(makePoints(voxels, chunk.box, this.look.points[level]), chunk.origin);
+  private *farCells(coarsest: number): Generator<FarCells> {
+    for (const [key, { level, largest }] of this.chunks) {
+      if (level !== coarsest || !largest) continue;
+      const [x, y, z] = blockIndex(key);
+      const side = kChunk / 2 ** coarsest;
+      yield { cells: largest, begin: [x * side, y * side, z * side] };
+    }
+  }
+
+  private makePoints({ voxels, box }: Chunk, level: number): THREE.Points {
+    return makePoints(coarserBy(level, voxels), box, this.look.points[level]);
   }
 
   private drop(key: number): void {
     const chunk = this.chunks.get(key);
     if (!chunk) return;
+    if (chunk.largest) this.farChanged = true;
     for (const object of [...chunk.points, chunk.cubes]) {
       if (!object) continue;
       object.geometry.dispose();
@@ -183,6 +205,11 @@ export class BlockCloud {
     }
     this.chunks.delete(key);
   }
+}
+
+function coarserBy(levels: number, voxels: ChunkVoxels): ChunkVoxels {
+  for (let l = 0; l < levels; ++l) voxels = coarser(voxels);
+  return voxels;
 }
 
 function makePoints(voxels: ChunkVoxels, box: THREE.Box3, material: THREE.Material): THREE.Points {

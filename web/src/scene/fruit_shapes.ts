@@ -5,7 +5,7 @@ import type { History } from "../data/history.ts";
 import type { Fruit } from "../data/messages.ts";
 import { fruitColor } from "../fruit_color.ts";
 import type { Palette } from "../theme.ts";
-import { matrixOf } from "./matrices.ts";
+import { dispose, matrixOf } from "./matrices.ts";
 import { surface } from "./superellipsoid.ts";
 
 /** T_world_fruit */
@@ -28,11 +28,14 @@ export class FruitShapes {
   private readonly rimMaterial = new THREE.MeshBasicMaterial({ side: THREE.BackSide });
   private readonly chosenMaterial = new THREE.MeshBasicMaterial({ side: THREE.BackSide });
   private readonly rims = new THREE.Group();
+  private readonly exact = new THREE.Group();
+  /** All fruits as they are now, once somebody wants them coarse. */
+  private rough: THREE.InstancedMesh | null = null;
   private step = -1;
   private selected = -1;
 
   constructor() {
-    this.group.add(this.rims);
+    this.group.add(this.rims, this.exact);
   }
 
   get fruits(): Fruit[] {
@@ -61,9 +64,11 @@ export class FruitShapes {
     this.chosenMaterial.color.set(palette.accent);
   }
 
-  /** Without outlines. */
+  /** As ellipsoids without outlines, all drawn at once. */
   setCoarse(coarse: boolean): void {
-    this.rims.visible = !coarse;
+    if (coarse && !this.rough) this.group.add((this.rough = ellipsoids(this.shown)));
+    if (this.rough) this.rough.visible = coarse;
+    this.rims.visible = this.exact.visible = !coarse;
   }
 
   reset(): void {
@@ -72,6 +77,7 @@ export class FruitShapes {
   }
 
   private add(fruit: Fruit): void {
+    this.forgetRough();
     const { points, triangles } = surface(fruit, 12, 20);
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(points, 3));
@@ -94,18 +100,36 @@ export class FruitShapes {
     rim.matrix.copy(T).scale(new THREE.Vector3(a, b2, c));
     mesh.matrix.copy(T);
     for (const object of [mesh, rim]) object.matrixAutoUpdate = false;
-    this.group.add(mesh);
+    this.exact.add(mesh);
     this.rims.add(rim);
     this.shown.set(fruit.id, { fruit, mesh, rim });
+  }
+
+  private forgetRough(): void {
+    if (!this.rough) return;
+    dispose(this.rough);
+    this.rough.dispose();
+    this.rough = null;
   }
 
   private drop(id: number): void {
     const shown = this.shown.get(id);
     if (!shown) return;
-    this.group.remove(shown.mesh);
+    this.forgetRough();
+    this.exact.remove(shown.mesh);
     this.rims.remove(shown.rim);
     shown.mesh.geometry.dispose();
     shown.mesh.material.dispose();
     this.shown.delete(id);
   }
+}
+
+function ellipsoids(shown: ReadonlyMap<number, Shown>): THREE.InstancedMesh {
+  const all = new THREE.InstancedMesh(new THREE.SphereGeometry(1, 10, 6), new THREE.MeshLambertMaterial(), shown.size);
+  all.frustumCulled = false;
+  [...shown.values()].forEach(({ fruit, mesh }, i) => {
+    all.setMatrixAt(i, mesh.matrix.clone().scale(new THREE.Vector3(...fruit.semiAxes)));
+    all.setColorAt(i, mesh.material.color);
+  });
+  return all;
 }

@@ -16,9 +16,19 @@ export class SceneProbe {
     return { frames, frame_ms, voxels: this.world.map.count, slow };
   }
 
-  /** All voxels of this moment are drawn. */
+  /** What the graphics card holds. */
+  get held(): { geometries: number; textures: number } {
+    return this.world.stage.renderer.info.memory;
+  }
+
+  /** The robot where it works and the first plants have been drawn. */
+  get furnished(): boolean {
+    return this.world.furnishedAt < this.world.stage.frames;
+  }
+
+  /** All voxels of this moment are drawn, and all plants. */
   get settled(): boolean {
-    return this.world.stage.frames > 0 && this.world.map.pending === 0;
+    return this.world.stage.frames > 0 && this.world.map.pending + this.world.truth.pending === 0;
   }
 
   /** A fruit in sight, in pixels of the page. */
@@ -43,6 +53,19 @@ export class SceneProbe {
     const off = this.colorAt(point);
     only(before);
     return [on, off];
+  }
+
+  /** Until the moment that was asked for is drawn, all of it and finely; so are all from then on. */
+  async still(): Promise<void> {
+    const { stage } = this.world;
+    const frame = () => new Promise((resume) => requestAnimationFrame(resume));
+    stage.patient = true;
+    await frame();
+    do {
+      stage.ask();
+      await frame();
+    } while (!this.settled);
+    await frame();
   }
 
   /** Turns the camera for so long; frames a second. */

@@ -29,6 +29,8 @@ export class Stage {
   frames = 0;
   /** Nothing moves: the frame that is drawn may take its time. */
   fine = false;
+  /** Whoever looks has time: every frame is a fine one. */
+  patient = false;
   private readonly before: BeforeFrame[] = [];
   private asked = false;
   private scale = 1;
@@ -42,17 +44,14 @@ export class Stage {
   /** Throws where there is no WebGL. */
   constructor(private readonly holder: HTMLElement) {
     THREE.ColorManagement.enabled = true;
-    this.slow = isSoftware();
-    if (this.slow) this.coarseness = kLargestCell;
-    const canvas = document.createElement("canvas");
-    const context = canvas.getContext("webgl2", {
-      alpha: false,
-      stencil: false,
-      antialias: !this.slow,
-      powerPreference: "high-performance",
-    });
-    if (!context) throw new Error("no WebGL 2");
+    const plain = openContext(false);
+    this.slow = isSoftware(plain);
+    if (this.slow) [this.coarseness, this.scale] = [kLargestCell, kCoarsest];
+    else plain.getExtension("WEBGL_lose_context")?.loseContext();
+    const context = this.slow ? plain : openContext(true);
+    const canvas = context.canvas as HTMLCanvasElement;
     this.renderer = new THREE.WebGLRenderer({ canvas, context });
+    this.renderer.debug.checkShaderErrors = false; // the check waits for every shader
     canvas.tabIndex = 0;
     canvas.setAttribute("role", "img");
     holder.prepend(canvas);
@@ -156,16 +155,17 @@ export class Stage {
 
   private draw(now: number): void {
     this.asked = false;
+    this.fine = this.patient;
     let more = this.advanceFlight(now);
     if (this.controls.update()) more = true;
     for (const call of this.before) if (call(now)) more = true;
     this.adapt(now);
-    this.applyScale(this.scale);
+    this.applyScale(this.fine ? 1 : this.scale);
     this.render();
     this.inRow = more;
     clearTimeout(this.settle);
     if (more) this.ask();
-    else if (this.scale < 1 || this.coarseness > 0) this.settle = window.setTimeout(() => this.drawFinely(), 250);
+    else if (!this.fine && (this.scale < 1 || this.coarseness > 0)) this.settle = window.setTimeout(() => this.drawFinely(), 250);
   }
 
   /** Frames in a row: the time between two is what one took. */
@@ -189,7 +189,7 @@ export class Stage {
     this.applyScale(1);
     for (const call of this.before) call(performance.now());
     this.render();
-    this.fine = false;
+    this.fine = this.patient;
     this.lastFrame = 0;
   }
 
@@ -215,12 +215,20 @@ interface View3 {
   target: THREE.Vector3;
 }
 
+function openContext(antialias: boolean): WebGL2RenderingContext {
+  const context = document.createElement("canvas").getContext("webgl2", {
+    alpha: false,
+    stencil: false,
+    antialias,
+    powerPreference: "high-performance",
+  });
+  if (!context) throw new Error("no WebGL 2");
+  return context;
+}
+
 /** Whether the processor draws, not a graphics card. */
-function isSoftware(): boolean {
-  const context = document.createElement("canvas").getContext("webgl2");
-  if (!context) return false;
+function isSoftware(context: WebGL2RenderingContext): boolean {
   const info = context.getExtension("WEBGL_debug_renderer_info");
   const name = info ? String(context.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
-  context.getExtension("WEBGL_lose_context")?.loseContext();
   return /swiftshader|llvmpipe|software|softpipe/i.test(name);
 }

@@ -2,46 +2,85 @@ import * as THREE from "three";
 import type { Truth, TruthPart } from "../data/messages.ts";
 import type { Palette } from "../theme.ts";
 import { dispose } from "./matrices.ts";
+import { partsByTile, tileMesh } from "./truth_tiles.ts";
 import { type ColoredMesh, simplify } from "./simplify.ts";
 
 /** What belongs to plants; the rest is around them. */
 const kPlantParts = new Set(["leaf", "stem", "fruit"]);
 
-/** Cells of the coarse mesh. */
-const kCell_m = 0.018;
+/** Cells of the coarser meshes, the last one for afar; 0: as it was sent. */
+const kCells_m = [0, 0.018, 0.03, 0.05, 0.08, 0.13];
 
 /** How much of the true colours is left. */
 const kStrength = 0.6;
+
+/** A piece of what stands there, finer and coarser. */
+interface Tile {
+  group: THREE.Group;
+  parts: TruthPart[];
+  box: THREE.Box3;
+  /** By level; made when they are needed. */
+  meshes: { drawn: THREE.Mesh; mesh: ColoredMesh }[];
+}
+
+/** How a frame is to be drawn. */
+export interface TruthDetail {
+  /** Pixels of a metre at one metre. */
+  pixels: number;
+  /** Cells up to so many pixels. */
+  cellPixels: number;
+  /** Not as finely as it was sent, however near. */
+  coarse: boolean;
+  /** Milliseconds that may be spent on new tiles. */
+  budget_ms: number;
+}
 
 /** What really stands there, in simulation: pale, to be told from what the robot knows. */
 export class TruthModel {
   readonly plants = new THREE.Group();
   readonly around = new THREE.Group();
+  private truth: Truth | null = null;
+  private tiles: Tile[] = [];
   private readonly material = new THREE.MeshLambertMaterial({
     side: THREE.DoubleSide,
     flatShading: true,
     vertexColors: true,
   });
 
+  constructor() {
+    // After the map, which hides most of them: what is hidden costs no pixels.
+    for (const group of [this.plants, this.around]) group.renderOrder = 1;
+  }
+
   set(truth: Truth): void {
     this.clear();
+    this.truth = truth;
     for (const [group, parts] of [
       [this.plants, truth.parts.filter((p) => kPlantParts.has(p.what))],
       [this.around, truth.parts.filter((p) => !kPlantParts.has(p.what))],
-    ] as const) {
-      const mesh = meshOf(truth, parts);
-      group.add(this.make(mesh));
-      if (mesh.triangles.length > 3 * 20000) group.add(this.make(simplify(mesh, kCell_m)));
-    }
-    this.setCoarse(false);
+    ] as const)
+      for (const tile of partsByTile(truth, parts)) this.tiles.push({ group, parts: tile, box: new THREE.Box3(), meshes: [] });
   }
 
-  /** Draws fewer triangles. */
-  setCoarse(coarse: boolean): void {
-    for (const group of [this.plants, this.around]) {
-      const last = group.children.length - 1;
-      group.children.forEach((child, i) => (child.visible = i === (coarse ? last : 0)));
+  /** Tiles that are not made yet. */
+  get pending(): number {
+    return this.tiles.reduce((sum, { meshes }) => sum + (meshes.length === 0 ? 1 : 0), 0);
+  }
+
+  /** Makes what is not made yet, as much as time allows, and chooses how fine each tile is; true: there is more. */
+  update(camera: THREE.Camera, { pixels, cellPixels, coarse, budget_ms }: TruthDetail): boolean {
+    const begin = performance.now();
+    for (const tile of this.tiles) {
+      if (performance.now() - begin > budget_ms) return true;
+      if (tile.meshes.length === 0) this.build(tile);
+      if (!tile.group.visible) continue;
+      const largest = (cellPixels / pixels) * tile.box.distanceToPoint(camera.position);
+      const byDistance = kCells_m.findLastIndex((cell) => cell <= largest);
+      const level = Math.max(byDistance, coarse ? 1 : 0);
+      tile.meshes[level] ??= this.levelOf(tile, level);
+      tile.meshes.forEach(({ drawn }, l) => (drawn.visible = l === level));
     }
+    return false;
   }
 
   paint(palette: Palette): void {
@@ -61,45 +100,29 @@ export class TruthModel {
 
   clear(): void {
     for (const group of [this.plants, this.around]) for (const child of [...group.children]) dispose(child);
+    this.tiles = [];
+    this.truth = null;
   }
 
-  private make({ vertices, colors, triangles }: ColoredMesh): THREE.Mesh {
+  private build(tile: Tile): void {
+    if (!this.truth) return;
+    const mesh = tileMesh(this.truth, tile.parts);
+    tile.box.setFromArray(mesh.vertices);
+    tile.meshes.push({ mesh, drawn: this.make(mesh, tile.group) });
+  }
+
+  private levelOf({ meshes, group }: Tile, level: number): Tile["meshes"][number] {
+    const mesh = simplify(meshes[0].mesh, kCells_m[level]);
+    return { mesh, drawn: this.make(mesh, group) };
+  }
+
+  private make({ vertices, colors, triangles }: ColoredMesh, group: THREE.Group): THREE.Mesh {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(vertices, 3));
     geometry.setAttribute("color", new THREE.BufferAttribute(colors, 3));
     geometry.setIndex(new THREE.BufferAttribute(triangles, 1));
-    return new THREE.Mesh(geometry, this.material);
+    const drawn = new THREE.Mesh(geometry, this.material);
+    group.add(drawn);
+    return drawn;
   }
-}
-
-/** These parts as one mesh. */
-function meshOf(truth: Truth, parts: TruthPart[]): ColoredMesh {
-  const numbers = new Int32Array(truth.vertices.length / 3);
-  const vertices: number[] = [];
-  const colors: number[] = [];
-  const triangles: number[] = [];
-  for (const part of parts) {
-    // Vertices are numbered anew for each part, with its colour.
-    numbers.fill(-1);
-    const color = new THREE.Color().setRGB(
-      part.color[0] / 255,
-      part.color[1] / 255,
-      part.color[2] / 255,
-      THREE.SRGBColorSpace,
-    );
-    for (let i = 3 * part.first; i < 3 * (part.first + part.triangles); ++i) {
-      const corner = truth.triangles[i];
-      if (numbers[corner] < 0) {
-        numbers[corner] = vertices.length / 3;
-        for (let k = 0; k < 3; ++k) vertices.push(truth.vertices[3 * corner + k]);
-        colors.push(color.r, color.g, color.b);
-      }
-      triangles.push(numbers[corner]);
-    }
-  }
-  return {
-    vertices: Float32Array.from(vertices),
-    colors: Float32Array.from(colors),
-    triangles: Uint32Array.from(triangles),
-  };
 }

@@ -9,6 +9,7 @@ export interface CloudUniforms {
   [name: string]: THREE.IUniform;
   size: { value: number };
   pixels: { value: number };
+  nearer: { value: number };
   shown: { value: THREE.Vector3 };
   colorA: { value: THREE.Color };
   colorB: { value: THREE.Color };
@@ -19,6 +20,7 @@ export function cloudUniforms(): CloudUniforms {
   return {
     size: { value: 0.01 },
     pixels: { value: 500 },
+    nearer: { value: 0.5 },
     shown: { value: new THREE.Vector3(1, 1, 1) },
     colorA: { value: new THREE.Color() },
     colorB: { value: new THREE.Color() },
@@ -27,7 +29,7 @@ export function cloudUniforms(): CloudUniforms {
 }
 
 const kCommon = /* glsl */ `
-uniform float size, pixels;
+uniform float size, pixels, nearer;
 uniform vec3 shown, colorA, colorB, colorC;
 const float kRoiSize = 0.6;
 varying vec3 vColor;
@@ -80,10 +82,13 @@ void main() {
   gl_Position = kNowhere;
   gl_PointSize = 1.0;
   if (scale > 0.0) {
+    vec3 toEye = normalize(cameraPosition - world.xyz);
+    vColor = color * mix(1.0, light(facing, toEye), shaded(world.z));
+    // As near as a cube's front, or the leaf inside would shine through. Larger cells would hide fruits.
+    if (scale == 1.0) world.xyz += nearer * size * toEye;
     vec4 eye = viewMatrix * world;
     gl_Position = projectionMatrix * eye;
     gl_PointSize = max(1.5, 1.25 * scale * size * pixels / -eye.z);
-    vColor = color * mix(1.0, light(facing, normalize(cameraPosition - world.xyz)), shaded(world.z));
   }
 }`,
     fragmentShader: kFragment,
@@ -123,9 +128,9 @@ void main() {
 /** A material for each size of cells; all other uniforms are shared. */
 function levels(points: THREE.ShaderMaterial): THREE.ShaderMaterial[] {
   const { vertexShader, fragmentShader, uniforms } = points;
-  const larger = () =>
-    new THREE.ShaderMaterial({ vertexShader, fragmentShader, uniforms: { ...uniforms, size: { value: 1 } } });
-  return [points, larger(), larger()];
+  const own = () => ({ ...uniforms, size: { value: 1 }, nearer: { value: 0 } });
+  const larger = () => new THREE.ShaderMaterial({ vertexShader, fragmentShader, uniforms: own() });
+  return [points, larger(), larger(), larger()];
 }
 
 /** Targets: discs (ROI), squares (occupied) and diamonds (border), so that shape tells them apart too. */

@@ -15,7 +15,7 @@ import { boxOf, RegionBoxes } from "./region_boxes.ts";
 import { RobotModel } from "./robot_model.ts";
 import { Stage } from "./stage.ts";
 import { TrueFruits } from "./true_fruits.ts";
-import { TruthModel } from "./truth_model.ts";
+import { type TruthDetail, TruthModel } from "./truth_model.ts";
 import { markedLooks, markedViews, ViewMarks } from "./view_marks.ts";
 import { cloudUniforms, mapLook, targetLook } from "./voxel_looks.ts";
 
@@ -44,6 +44,8 @@ export class World {
   private timeline: Timeline | null = null;
   private known = { robot: false, truth: false, segments: -1 };
   private follow = false;
+  /** Frames that had been drawn when the still parts of the run had come. */
+  furnishedAt = Infinity;
   /** The mission the eye was brought to. */
   private framed: string | null = null;
 
@@ -143,7 +145,7 @@ export class World {
     const box = this.bounds(whole, t);
     const center = box.getCenter(new THREE.Vector3());
     const direction = new THREE.Vector3(0.62, -1.1, 0.72).normalize();
-    const distance = fittingDistance(box, center, direction, this.stage.camera);
+    const distance = fittingDistance(box, direction, this.stage.camera);
     this.stage.flyTo(center.clone().addScaledVector(direction, distance), center);
   }
 
@@ -171,6 +173,7 @@ export class World {
       const mission = timeline.hello?.mission ?? "";
       if (this.framed !== mission && timeline.robot && timeline.segments.length > 0) {
         this.framed = mission;
+        this.furnishedAt = this.stage.frames;
         this.frame(false, timeline.newest);
       }
     }
@@ -230,6 +233,12 @@ export class World {
     this.stage.ask();
   }
 
+  /** Plants matter less than the map. */
+  private truthDetail(pixels: number, budget_ms: number): TruthDetail {
+    const { coarse, cellPixels } = this.stage;
+    return { pixels, cellPixels: coarse ? 3 * cellPixels : 1, coarse, budget_ms };
+  }
+
   private beforeFrame(): boolean {
     const { camera, renderer } = this.stage;
     const height = renderer.domElement.height;
@@ -242,35 +251,38 @@ export class World {
     const detail = {
       cubesWithin: voxel / 5,
       coarseBeyond: voxel / this.stage.cellPixels,
-      budget_ms: Math.max(12, this.stage.frame_ms),
+      budget_ms: Math.min(60, Math.max(12, this.stage.frame_ms)),
     };
-    this.truth.setCoarse(this.stage.coarse);
     this.fruits.setCoarse(this.stage.coarse);
+    const moreTruth = this.truth.update(camera, this.truthDetail(pixels, detail.budget_ms));
     const more = this.map.update(camera, detail);
     const moreTargets = this.layers.isOn("frontiers") && this.targets.update(camera, detail);
-    return more || moreTargets;
+    return more || moreTruth || moreTargets;
   }
 }
 
-/** How far away the camera must be to have most of a box in the picture: its corners are empty. */
+/** How far away the camera must be to have the middles of a box' edges in the picture: its corners are empty. */
 function fittingDistance(
   box: THREE.Box3,
-  center: THREE.Vector3,
   direction: THREE.Vector3,
   camera: THREE.PerspectiveCamera,
 ): number {
   const right = new THREE.Vector3(0, 0, 1).cross(direction).normalize();
   const up = direction.clone().cross(right);
   const slope = Math.tan((camera.fov * Math.PI) / 360);
+  const half = box.getSize(new THREE.Vector3()).multiplyScalar(0.5);
   let distance = 0.5;
-  for (let i = 0; i < 8; ++i) {
-    const corner = new THREE.Vector3(
-      i & 1 ? box.max.x : box.min.x,
-      i & 2 ? box.max.y : box.min.y,
-      i & 4 ? box.max.z : box.min.z,
-    ).sub(center);
-    const across = Math.max(Math.abs(corner.dot(right)) / (slope * camera.aspect), Math.abs(corner.dot(up)) / slope);
-    distance = Math.max(distance, across + corner.dot(direction));
+  for (const side of edgeMiddles()) {
+    const point = side.multiply(half);
+    const across = Math.max(Math.abs(point.dot(right)) / (slope * camera.aspect), Math.abs(point.dot(up)) / slope);
+    distance = Math.max(distance, across + point.dot(direction));
   }
-  return 0.8 * distance;
+  return distance;
+}
+
+/** Of the cube ±1. */
+function edgeMiddles(): THREE.Vector3[] {
+  const signs = [-1, 0, 1];
+  const all = signs.flatMap((x) => signs.flatMap((y) => signs.map((z) => new THREE.Vector3(x, y, z))));
+  return all.filter((point) => point.lengthSq() === 2);
 }
