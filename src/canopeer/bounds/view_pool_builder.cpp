@@ -15,7 +15,9 @@ namespace canopeer {
 namespace {
 
 constexpr double kFirstShare = 0.9;  // of the work, a guess: before segments are gone through again
-constexpr int kTriesAView = 32;      // of the first round, when a segment is gone through again
+// Tries at rarely seen patches, for each view of the first round, when a segment is gone through
+// again.
+constexpr std::int64_t kTriesAView = 32;
 
 PoolProgress progress_of(const PoolState& state, int segments, const PoolOptions& options) {
   PoolProgress progress;

@@ -163,8 +163,8 @@ void SegmentSampler::sample(int count, PoolState& state) const {
   take_in(std::move(found), state);
 }
 
-void SegmentSampler::aim_again(const std::vector<std::uint32_t>& patches, int tries, int round,
-                               PoolState& state) const {
+void SegmentSampler::aim_again(const std::vector<std::uint32_t>& patches, std::int64_t tries,
+                               int round, PoolState& state) const {
   const std::string stream = "patches again, segment " + std::to_string(frame_.index) + ", round " +
                              std::to_string(round) + ", ";
   std::vector<std::uint32_t> near;

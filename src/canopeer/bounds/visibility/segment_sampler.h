@@ -44,7 +44,7 @@ class SegmentSampler {
   void sample(int count, PoolState& state) const;
   /// Aims at each of these patches that may be in range, 32 times or less: `tries` times in all,
   /// about, and once in any case. `round` tells streams apart.
-  void aim_again(const std::vector<std::uint32_t>& patches, int tries, int round,
+  void aim_again(const std::vector<std::uint32_t>& patches, std::int64_t tries, int round,
                  PoolState& state) const;
   /// So many until each fruit in range has been aimed at `aimed` times.
   [[nodiscard]] int least_samples(int aimed) const;
