@@ -42,10 +42,7 @@ export class App implements Actions {
   private shownT = -1;
 
   constructor(root: HTMLElement) {
-    this.panels = new Panels(root, this);
-    this.scene = openScene(this.panels.sceneHolder, this);
-    if (!this.scene) this.panels.sayNoScene();
-    this.panels.camera.pair.onColor = (image, view) => this.scene?.setPicture(image, this.timeline.view(view));
+    // First: the run is on its way while the picture is made ready.
     this.connection = new Connection(socketUrl(location), {
       begins: () => this.begin(),
       frame: (message) => this.take(message),
@@ -58,6 +55,10 @@ export class App implements Actions {
         this.wake();
       },
     });
+    this.panels = new Panels(root, this);
+    this.scene = openScene(this.panels.sceneHolder, this);
+    if (!this.scene) this.panels.sayNoScene();
+    this.panels.camera.pair.onColor = (image, view) => this.scene?.setPicture(image, this.timeline.view(view));
     listenToKeys(this.keys());
     addEventListener("hashchange", () => {
       this.goal = parsePlace(location.hash);

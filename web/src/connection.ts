@@ -51,7 +51,7 @@ export class Connection {
   }
 
   private open(): void {
-    this.events.state({ is: "connecting" });
+    queueMicrotask(() => this.events.state({ is: "connecting" })); // whoever makes the connection is made first
     const socket = new WebSocket(this.url);
     this.socket = socket;
     socket.binaryType = "arraybuffer";

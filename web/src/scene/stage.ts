@@ -10,6 +10,9 @@ const kGoodFrame_ms = 60;
 /** Never coarser than this share of the pixels a side. */
 const kCoarsest = 0.5;
 
+/** So long an empty picture waits for robot and plants: drawing it would keep them waiting. */
+const kEmpty_ms = 2000;
+
 /** Pixels of the largest cells of the map that are drawn for voxels. */
 const kLargestCell = 3;
 
@@ -33,6 +36,7 @@ export class Stage {
   patient = false;
   private readonly before: BeforeFrame[] = [];
   private asked = false;
+  private emptyUntil = performance.now() + kEmpty_ms;
   private scale = 1;
   private coarseness = 0;
   private shownScale = 0;
@@ -101,6 +105,12 @@ export class Stage {
     requestAnimationFrame((now) => this.draw(now));
   }
 
+  /** There is something to see now. */
+  furnish(): void {
+    this.emptyUntil = 0;
+    this.ask();
+  }
+
   setBackground(color: string): void {
     this.scene.background = new THREE.Color(color);
     this.ask();
@@ -155,6 +165,7 @@ export class Stage {
 
   private draw(now: number): void {
     this.asked = false;
+    if (now < this.emptyUntil) return void setTimeout(() => this.ask(), 50);
     this.fine = this.patient;
     let more = this.advanceFlight(now);
     if (this.controls.update()) more = true;

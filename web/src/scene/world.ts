@@ -174,6 +174,7 @@ export class World {
       if (this.framed !== mission && timeline.robot && timeline.segments.length > 0) {
         this.framed = mission;
         this.furnishedAt = this.stage.frames;
+        this.stage.furnish();
         this.frame(false, timeline.newest);
       }
     }
