@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string>
@@ -86,8 +87,10 @@ std::vector<int> numbers_in(const std::string& text) {
 }
 
 /// Executed by the planner `playback` in the simulator, as any planner's run; leaves `missed.txt`.
-Summary execute(const BoundArguments& arguments, const BoundWorld& world, const fs::path& plan,
-                const std::vector<int>& promised, const fs::path& out) {
+/// None: the mission came to an end before its time, e.g. since there was no way home.
+std::optional<Summary> execute(const BoundArguments& arguments, const BoundWorld& world,
+                               const fs::path& plan, const std::vector<int>& promised,
+                               const fs::path& out) {
   Overrides overrides = bound_overrides(arguments);
   overrides.emplace_back("planner", "playback");
   overrides.emplace_back("playback.plan", fs::absolute(plan).string());
@@ -102,7 +105,12 @@ Summary execute(const BoundArguments& arguments, const BoundWorld& world, const 
   SignalSteering signals;
   run->steer(signals);
   run->watch(std::make_shared<MissionProgress>(arguments.quiet), {.name = "the progress bar"});
-  Summary summary = value_or_stop(run->execute(), kFailed);
+  const auto summary = run->execute();
+  if (!summary) {
+    std::fprintf(stderr, "canopeer: notice: %s: %s; this plan does not count\n", plan.c_str(),
+                 summary.error().message.c_str());
+    return std::nullopt;
+  }
   if (run->interrupted()) {
     std::fprintf(stderr, "canopeer: interrupted; the same command goes on from what is in %s\n",
                  arguments.out.c_str());
@@ -110,7 +118,7 @@ Summary execute(const BoundArguments& arguments, const BoundWorld& world, const 
   }
   const std::vector<int> ids = missed(*run, world.scene(), promised);
   value_or_stop(write_file(out / "missed.txt", numbers_text(ids)), kFailed);
-  return summary;
+  return *summary;
 }
 
 BestResult result_of(const BoundArguments& arguments, const Summary& summary,
@@ -135,9 +143,9 @@ struct Executed {
   std::vector<int> missed;
 };
 
-Executed make(const BoundArguments& arguments, const BoundWorld& world, const ViewPool& pool,
-              const FindRule& rule, const PlanJob& job, const std::vector<double>& factors,
-              MotionVerdicts& verdicts) {
+std::optional<Executed> make(const BoundArguments& arguments, const BoundWorld& world,
+                             const ViewPool& pool, const FindRule& rule, const PlanJob& job,
+                             const std::vector<double>& factors, MotionVerdicts& verdicts) {
   const fs::path out = fs::path(arguments.out) / job.name;
   const std::string plan_name = job.name + ".json";
   std::string words = words_of(world, pool, rule);
@@ -149,11 +157,13 @@ Executed make(const BoundArguments& arguments, const BoundWorld& world, const Vi
     const ClairvoyantPlan plan = plan_for(world, pool, rule, job.objective, factors, verdicts);
     const fs::path plan_path = fs::path(arguments.out) / plan_name;
     value_or_stop(write_view_plan(plan_path, plan.plan), kFailed);
-    summary = execute(arguments, world, plan_path, plan.fruit_ids, out);
+    const auto executed = execute(arguments, world, plan_path, plan.fruit_ids, out);
+    if (!executed) return std::nullopt;
+    summary = *executed;
     value_or_stop(write_file(out / "made_of.txt", words), kFailed);
   }
-  return {result_of(arguments, summary, plan_name),
-          numbers_in(value_or_stop(read_file(out / "missed.txt"), kFailed))};
+  return Executed{result_of(arguments, summary, plan_name),
+                  numbers_in(value_or_stop(read_file(out / "missed.txt"), kFailed))};
 }
 
 bool finds_more(const BestResult& a, const BestResult& b) {
@@ -171,10 +181,11 @@ std::vector<BestResult> rounds_of(const BoundArguments& arguments, const BoundWo
   std::vector<BestResult> results;
   for (int round = 1; round <= kRounds; ++round) {
     const PlanJob one{job.objective, job.name + "_" + std::to_string(round)};
-    const Executed executed = make(arguments, world, pool, rule, one, factors, verdicts);
-    results.push_back(executed.result);
-    if (executed.missed.empty()) break;
-    for (const int id : executed.missed) factors[static_cast<std::size_t>(id)] *= kMore;
+    const auto executed = make(arguments, world, pool, rule, one, factors, verdicts);
+    if (!executed) break;
+    results.push_back(executed->result);
+    if (executed->missed.empty()) break;
+    for (const int id : executed->missed) factors[static_cast<std::size_t>(id)] *= kMore;
   }
   return results;
 }
@@ -190,6 +201,7 @@ void add_clairvoyant(const BoundArguments& arguments, const BoundWorld& world, c
   };
   std::vector<BestResult> all = by(Objective::found, "clairvoyant_found");
   for (BestResult& one : by(Objective::auc, "clairvoyant_auc")) all.push_back(std::move(one));
+  if (all.empty()) return;
   Yardstick& y = results.yardstick;
   y.best_found = *std::max_element(all.begin(), all.end(),
                                    [](const auto& a, const auto& b) { return finds_more(b, a); });

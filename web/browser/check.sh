@@ -45,6 +45,9 @@ node "$folder/replay.mjs" "$link"
 kill "$server"
 wait "$server" || true
 
+server=
+node "$folder/back.mjs" "$program" "$folder/run"
+
 serve "$program" run scenario_1 --time-per-segment 600 --view --view-port 0 --out "$folder/live"
 node "$folder/live.mjs" "$link"
 wait "$server" || [ $? -eq 130 ]
