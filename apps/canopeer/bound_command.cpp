@@ -7,6 +7,7 @@
 
 #include "bound_plans.h"
 #include "bound_pool.h"
+#include "bound_record.h"
 #include "bound_table.h"
 #include "canopeer/bounds/world_hash.h"
 #include "commands.h"
@@ -76,6 +77,7 @@ void bound(const BoundArguments& arguments) {
   value_or_stop(write_yardstick(out / "yardstick.json", results.yardstick), kFailed);
   if (!arguments.quiet) print_bounds(results);
   if (!check_bounds(results.yardstick)) throw Stop{kFailed};
+  if (!arguments.record.empty()) keep_record(arguments.record, out, results.yardstick);
 }
 
 }  // namespace canopeer::app

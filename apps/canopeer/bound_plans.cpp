@@ -15,6 +15,7 @@
 #include "canopeer/base/atomic_file.h"
 #include "canopeer/bounds/clairvoyant.h"
 #include "canopeer/bounds/upper_bounds.h"
+#include "canopeer/campaign/best_known.h"
 #include "canopeer/eval/matching.h"
 #include "canopeer/planner/playback/plan_file.h"
 #include "canopeer/run/run.h"
@@ -41,9 +42,9 @@ std::string words_of(const BoundWorld& world, const ViewPool& pool, const FindRu
          std::to_string(rule.min_area_cm2) + "\n" + world.file().settings_json + "\n";
 }
 
-bool is_there(const fs::path& out, const std::string& words) {
-  const auto before = read_file(out / "made_of.txt");
-  return before && *before == words && fs::exists(out / "summary.json");
+bool says(const fs::path& file, const std::string& words) {
+  const auto before = read_file(file);
+  return before && *before == words;
 }
 
 ClairvoyantPlan plan_for(const BoundWorld& world, const ViewPool& pool, const FindRule& rule,
@@ -105,12 +106,13 @@ std::optional<Summary> execute(const BoundArguments& arguments, const BoundWorld
   SignalSteering signals;
   run->steer(signals);
   run->watch(std::make_shared<MissionProgress>(arguments.quiet), {.name = "the progress bar"});
-  const auto summary = run->execute();
-  if (!summary) {
-    std::fprintf(stderr, "canopeer: notice: %s: %s; this plan does not count\n", plan.c_str(),
-                 summary.error().message.c_str());
+  auto executed = run->execute();
+  if (!run->outcome()) {
+    std::fprintf(stderr, "canopeer: notice: %s: %s\n", plan.c_str(),
+                 run->outcome().error().message.c_str());
     return std::nullopt;
   }
+  Summary summary = value_or_stop(std::move(executed), kFailed);
   if (run->interrupted()) {
     std::fprintf(stderr, "canopeer: interrupted; the same command goes on from what is in %s\n",
                  arguments.out.c_str());
@@ -118,7 +120,7 @@ std::optional<Summary> execute(const BoundArguments& arguments, const BoundWorld
   }
   const std::vector<int> ids = missed(*run, world.scene(), promised);
   value_or_stop(write_file(out / "missed.txt", numbers_text(ids)), kFailed);
-  return *summary;
+  return summary;
 }
 
 BestResult result_of(const BoundArguments& arguments, const Summary& summary,
@@ -150,24 +152,26 @@ std::optional<Executed> make(const BoundArguments& arguments, const BoundWorld& 
   const std::string plan_name = job.name + ".json";
   std::string words = words_of(world, pool, rule);
   for (const double factor : factors) words += " " + std::to_string(factor);
+  const fs::path no_end = out / "came_to_no_end.txt";
   Summary summary;
-  if (is_there(out, words)) {
+  if (says(out / "made_of.txt", words) && fs::exists(out / "summary.json")) {
     summary = value_or_stop(read_summary(out / "summary.json"), kFailed);
+  } else if (says(no_end, words)) {
+    return std::nullopt;
   } else {
     const ClairvoyantPlan plan = plan_for(world, pool, rule, job.objective, factors, verdicts);
     const fs::path plan_path = fs::path(arguments.out) / plan_name;
     value_or_stop(write_view_plan(plan_path, plan.plan), kFailed);
     const auto executed = execute(arguments, world, plan_path, plan.fruit_ids, out);
-    if (!executed) return std::nullopt;
+    if (!executed) {
+      value_or_stop(write_file(no_end, words), kFailed);
+      return std::nullopt;
+    }
     summary = *executed;
     value_or_stop(write_file(out / "made_of.txt", words), kFailed);
   }
   return Executed{result_of(arguments, summary, plan_name),
                   numbers_in(value_or_stop(read_file(out / "missed.txt"), kFailed))};
-}
-
-bool finds_more(const BestResult& a, const BestResult& b) {
-  return a.detected != b.detected ? a.detected > b.detected : a.auc > b.auc;
 }
 
 /// Which pixels become a fruit is known only when they are fused. So the plan is executed, and of
@@ -182,7 +186,12 @@ std::vector<BestResult> rounds_of(const BoundArguments& arguments, const BoundWo
   for (int round = 1; round <= kRounds; ++round) {
     const PlanJob one{job.objective, job.name + "_" + std::to_string(round)};
     const auto executed = make(arguments, world, pool, rule, one, factors, verdicts);
-    if (!executed) break;
+    if (!executed) {
+      std::fprintf(stderr,
+                   "canopeer: notice: %s.json does not count: its run ended before its time\n",
+                   one.name.c_str());
+      break;
+    }
     results.push_back(executed->result);
     if (executed->missed.empty()) break;
     for (const int id : executed->missed) factors[static_cast<std::size_t>(id)] *= kMore;

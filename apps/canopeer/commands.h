@@ -143,7 +143,8 @@ struct BoundArguments {
   MissionArguments mission;
   std::string protocol;  ///< empty: the mission's own rules
   std::string out;
-  std::string pool;  ///< file of the sampled views; empty: views.pool in `out`
+  std::string pool;    ///< file of the sampled views; empty: views.pool in `out`
+  std::string record;  ///< of records/, that learns of the results; empty: none
   std::optional<int> segments;
   std::optional<int> views_per_fruit;  ///< aimed at each fruit in range; none: the default
   std::optional<int> most_views;       ///< a segment, at most; none: the default

@@ -182,6 +182,9 @@ void add_bound(CLI::App& app, BoundArguments& a) {
   command->add_option("--pool", a.pool,
                       "File of the sampled views, used again where it fits (default: views.pool in "
                       "--out); it does not depend on the protocol");
+  command->add_option("--record", a.record,
+                      "Record to put the results into, e.g. records/dense_1/seed_1/tight10.json; "
+                      "better ones that are there stay");
   command->add_option("--segments", a.segments, "Only the first K segments")
       ->check(CLI::Range(1, 100000));
   command

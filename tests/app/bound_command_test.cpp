@@ -65,6 +65,39 @@ TEST(BoundCommand, LeavesAYardstickThatPlansDoNotSurpass) {
   EXPECT_EQ(fs::last_write_time(out / "views.pool"), pool_time);
   EXPECT_EQ(fs::last_write_time(out / "clairvoyant_auc_1" / "summary.json"), run_time);
   EXPECT_EQ(read_file(out / "yardstick.json").value(), before.value());
+
+  // Into a record, with the plans; a better result that is there stays.
+  const fs::path record = directory / "records" / "tight.json";
+  const auto third = test::canopeer(bound(out, {"--record", record.string()}));
+  ASSERT_EQ(third.status, 0) << third.err;
+  auto kept = read_yardstick(record);
+  ASSERT_TRUE(kept) << kept.error().message;
+  ASSERT_TRUE(kept->best_auc);
+  EXPECT_TRUE(fs::exists(record.parent_path() / kept->best_auc->plan));
+  kept->best_auc->auc += 0.001;
+  kept->best_auc->plan = "tight.mine.plan.json";
+  ASSERT_TRUE(write_yardstick(record, *kept));
+  ASSERT_TRUE(write_file(record.parent_path() / "tight.mine.plan.json", "a plan"));
+  ASSERT_TRUE(write_file(record.parent_path() / "tight.old.plan.json", "named by none"));
+  ASSERT_EQ(test::canopeer(bound(out, {"--record", record.string()})).status, 0);
+  EXPECT_EQ(read_yardstick(record)->best_auc->plan, "tight.mine.plan.json");
+  EXPECT_EQ(read_file(record.parent_path() / "tight.mine.plan.json").value(), "a plan");
+  EXPECT_FALSE(fs::exists(record.parent_path() / "tight.old.plan.json"));
+  kept->world_hash = "0000000000000000";
+  ASSERT_TRUE(write_yardstick(record, *kept));
+  const auto other = test::canopeer(bound(out, {"--record", record.string()}));
+  EXPECT_EQ(other.status, 2);
+  EXPECT_NE(other.err.find("is of another world"), std::string::npos) << other.err;
+
+  // Plans whose runs came to no end do not count, and are not made again.
+  for (const auto& entry : fs::directory_iterator(out)) {
+    const fs::path made = entry.path() / "made_of.txt";
+    if (fs::exists(made)) fs::rename(made, entry.path() / "came_to_no_end.txt");
+  }
+  const auto without = test::canopeer(bound(out));
+  EXPECT_EQ(without.status, 0) << without.err;
+  EXPECT_NE(without.err.find("does not count"), std::string::npos) << without.err;
+  EXPECT_FALSE(read_yardstick(out / "yardstick.json")->clairvoyant.has_value());
 }
 
 TEST(BoundCommand, UsesThePoolOfAnotherProtocolAndGoesOnAfterAStop) {

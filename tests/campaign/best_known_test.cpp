@@ -43,6 +43,23 @@ TEST(BestKnown, IsBeatenByMoreFruitsOrAGreaterAuc) {
   EXPECT_TRUE(improved_by(Yardstick{}, run(0, 0.0), "9").has_value());
 }
 
+TEST(BestKnown, OfTwoYardsticksTheBetterResultsStay) {
+  Yardstick found = known(10, 0.5);
+  found.ceiling_fruits = 15;
+  Yardstick older = known(9, 0.6);
+  older.best_auc->plan = "older";
+  older.clairvoyant = older.best_auc;
+  const Yardstick both = with_better_of(found, older);
+  EXPECT_EQ(both.best_found->detected, 10);
+  EXPECT_EQ(both.best_auc->auc, 0.6);
+  EXPECT_EQ(both.best_auc->plan, "older");
+  EXPECT_EQ(both.clairvoyant->auc, 0.6);
+  EXPECT_EQ(both.ceiling_fruits, 15);
+  // Equals stay as they are.
+  EXPECT_EQ(with_better_of(known(10, 0.5), known(10, 0.5)).best_auc->plan, "");
+  EXPECT_FALSE(with_better_of(Yardstick{}, Yardstick{}).best_found.has_value());
+}
+
 TEST(BestKnown, ContradictionsAreNamed) {
   EXPECT_TRUE(contradictions(known(10, 0.5)).empty());
   Yardstick bounded = known(10, 0.5);

@@ -181,6 +181,31 @@ TEST_F(Collision, AStartThatBecameBlockedCanBeLeft) {
   EXPECT_TRUE(fast.escape_free(home, aside));
 }
 
+TEST_F(Collision, ManyObstaclesAreTouchedWhereOneOfThemIs) {
+  const Vec3 base = robot_.T_world_base(kTrolley).translation();
+  std::vector<TriangleMesh> all;
+  std::vector<MeshObstacles> singly;
+  for (int i = 0; i < 60; ++i) {
+    Vec3 low = base;
+    for (int k = 0; k < 3; ++k) low[k] += random_.uniform(-1.2, 1.2);
+    const Vec3 size(random_.uniform(0.02, 0.4), random_.uniform(0.02, 0.4), 0.05);
+    all.push_back(make_box(Box(low, low + size)));
+    singly.emplace_back(std::vector<TriangleMesh>{all.back()});
+  }
+  const MeshObstacles together(all);
+  int touched = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    const Configuration q = random_configuration(random_, robot_);
+    const bool any = std::any_of(singly.begin(), singly.end(), [&](const MeshObstacles& one) {
+      return exact_.touches(q, kTrolley, one);
+    });
+    EXPECT_EQ(exact_.touches(q, kTrolley, together), any) << q.transpose();
+    touched += any ? 1 : 0;
+  }
+  EXPECT_GT(touched, 20);
+  EXPECT_LT(touched, 380);
+}
+
 TEST_F(Collision, TheJudgeTellsSelfStructureMapAndPlantApart) {
   const Configuration& home = robot_.home("side_1");
   const Vec3 camera = robot_.T_world_base(kTrolley) * robot_.T_base_camera(home).translation();

@@ -14,6 +14,7 @@
 namespace canopeer {
 namespace {
 
+constexpr int kSampling = 2;         // its way; another one makes other pools of the same options
 constexpr double kFirstShare = 0.9;  // of the work, a guess: before segments are gone through again
 // Tries at rarely seen patches, for each view of the first round, when a segment is gone through
 // again.
@@ -107,7 +108,8 @@ std::string pool_key(const MissionOptions& mission, const CameraIntrinsics& came
   for (const double x : {k.fx, k.fy, k.cx, k.cy, k.min_range_m, k.max_range_m}) {
     key += " " + exact_text(x);
   }
-  key += " " + std::to_string(k.width) + "x" + std::to_string(k.height) + " rare options";
+  key += " " + std::to_string(k.width) + "x" + std::to_string(k.height) + " sampling " +
+         std::to_string(kSampling) + " options";
   for (const double x : {o.patch_m, o.seen_once, o.near_rad}) key += " " + exact_text(x);
   for (const int n : {o.aimed, o.batch, o.most, o.again, o.keep}) key += " " + std::to_string(n);
   key += " seed " + std::to_string(o.seed) + " segments";

@@ -11,6 +11,8 @@ namespace fs = std::filesystem;
 
 constexpr double kSameAuc = 1e-12;  // a number went through text
 
+bool has_greater_auc(const BestResult& a, const BestResult& b) { return a.auc > b.auc + kSameAuc; }
+
 void check_bound(const char* name, const std::optional<UpperBound>& bound,
                  const std::optional<BestResult>& most, const std::optional<BestResult>& best_auc,
                  std::vector<std::string>& found) {
@@ -44,6 +46,21 @@ Expected<std::optional<Yardstick>> known_yardstick(const fs::path& path) {
   return std::optional<Yardstick>(std::move(*yardstick));
 }
 
+bool finds_more(const BestResult& a, const BestResult& b) {
+  return a.detected > b.detected || (a.detected == b.detected && has_greater_auc(a, b));
+}
+
+Yardstick with_better_of(Yardstick found, const Yardstick& known) {
+  const auto take = [](std::optional<BestResult>& mine, const std::optional<BestResult>& theirs,
+                       auto better) {
+    if (theirs && (!mine || better(*theirs, *mine))) mine = theirs;
+  };
+  take(found.clairvoyant, known.clairvoyant, has_greater_auc);
+  take(found.best_found, known.best_found, finds_more);
+  take(found.best_auc, known.best_auc, has_greater_auc);
+  return found;
+}
+
 std::optional<Yardstick> improved_by(const Yardstick& known, const RunFigures& run,
                                      const std::string& version,
                                      const std::vector<std::string>& settings) {
@@ -58,10 +75,8 @@ std::optional<Yardstick> improved_by(const Yardstick& known, const RunFigures& r
     result.settings.push_back("compute_table=" + run.job.contestant.table);
   }
   Yardstick better = known;
-  const auto& most = known.best_found;
-  const bool more = !most || result.detected > most->detected ||
-                    (result.detected == most->detected && result.auc > most->auc + kSameAuc);
-  const bool sooner = !known.best_auc || result.auc > known.best_auc->auc + kSameAuc;
+  const bool more = !known.best_found || finds_more(result, *known.best_found);
+  const bool sooner = !known.best_auc || has_greater_auc(result, *known.best_auc);
   if (more) better.best_found = result;
   if (sooner) better.best_auc = result;
   return more || sooner ? std::optional(better) : std::nullopt;

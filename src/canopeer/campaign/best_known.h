@@ -21,6 +21,12 @@ namespace canopeer {
 /// Nothing when there is no such file. Error: it cannot be read.
 [[nodiscard]] Expected<std::optional<Yardstick>> known_yardstick(const std::filesystem::path& path);
 
+/// More fruits, or as many with a greater AUC.
+[[nodiscard]] bool finds_more(const BestResult& a, const BestResult& b);
+
+/// What was found anew on a world, with the better of both best results.
+[[nodiscard]] Yardstick with_better_of(Yardstick found, const Yardstick& known);
+
 /// The yardstick with the run as best known, of fruits (more of them, then a greater AUC) or of
 /// AUC; nothing when it beats neither. The world's part must be filled in. `version`: of Canopeer.
 [[nodiscard]] std::optional<Yardstick> improved_by(const Yardstick& known, const RunFigures& run,

@@ -23,8 +23,8 @@ struct Verdict {
 class MotionJudge {
  public:
   /// `step_m`: between two states looked at no point of the arm moves farther. `stops`: places of
-  /// the trolley whose surroundings are kept, the last ones; 10 to 50 MB each. `robot` and `scene`
-  /// outlive the judge.
+  /// the trolley whose surroundings, triangles and boxes around them, are kept, the last ones.
+  /// `robot` and `scene` outlive the judge.
   MotionJudge(const RobotModel& robot, const Scene& scene, double step_m = 0.01, int stops = 1);
 
   /// Motion along the waypoints with the trolley at rest; `map`: what is known when it starts, or

@@ -80,15 +80,20 @@ std::vector<std::uint32_t> rarely_seen(const std::vector<std::uint32_t>& patches
 SegmentSampler::SegmentSampler(const SampledWorld& world, const SegmentFrame& frame,
                                const CutFruits& fruits, const CameraIntrinsics& camera,
                                std::uint64_t seed)
+    : SegmentSampler(world, frame, fruits, camera, seed, parts_near(world, frame, fruits, camera)) {
+}
+
+SegmentSampler::SegmentSampler(const SampledWorld& world, const SegmentFrame& frame,
+                               const CutFruits& fruits, const CameraIntrinsics& camera,
+                               std::uint64_t seed, const std::vector<NumberedPart>& near)
     : world_(world),
       frame_(frame),
       camera_(camera),
       seed_(seed),
       free_(world.robot, world.ik, world.scene, world.judge, frame, camera.min_range_m,
             camera.max_range_m),
-      parts_(parts_near(world, frame, fruits, camera)),
-      picture_(parts_),
-      sights_(parts_),
+      picture_(near),
+      sights_(near),
       points_(fruits.points) {
   for (std::uint32_t p = 0; p < points_.size(); ++p) {
     if (free_.may_be_in_range(points_[p].front())) patches_near_.push_back(p);

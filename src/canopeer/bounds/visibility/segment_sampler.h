@@ -50,6 +50,9 @@ class SegmentSampler {
   [[nodiscard]] int least_samples(int aimed) const;
 
  private:
+  SegmentSampler(const SampledWorld& world, const SegmentFrame& frame, const CutFruits& fruits,
+                 const CameraIntrinsics& camera, std::uint64_t seed,
+                 const std::vector<NumberedPart>& near);
   [[nodiscard]] std::optional<Configuration> draw(std::uint64_t number) const;
   /// Aimed at a point of a patch.
   [[nodiscard]] std::optional<Configuration> draw_at(std::uint32_t patch,
@@ -62,7 +65,6 @@ class SegmentSampler {
   CameraIntrinsics camera_;
   std::uint64_t seed_;
   FreeViews free_;
-  std::vector<NumberedPart> parts_;
   NumberedView picture_;
   SightLines sights_;
   const std::vector<std::vector<Vec3>>& points_;  // by patch
