@@ -6,7 +6,7 @@ frames_campaign.py [--seeds A-B] [--rows TEXT] [--jobs N] [--table]
             goes on after a kill and another session adds seeds
   --rows    only rows whose name contains TEXT
   --jobs    runs at a time, of one thread each (default: 2)
-  --table   run nothing; print the table of what is there, as Markdown
+  --table   run nothing; print the tables of what is there, as Markdown: rows, then pairs of rows seed by seed
 """
 
 import argparse
@@ -133,6 +133,43 @@ def table():
               f"{speed:.0f} |")
 
 
+PAIRS = [("dense_1 vmp 0 Hz", "dense_1 vmp 5 Hz"), ("dense_1 random 0 Hz", "dense_1 random 5 Hz"),
+         ("dense_1 vmp 5 Hz", "dense_1 vmp 15 Hz"), ("dense_1 random 5 Hz", "dense_1 random 15 Hz"),
+         ("dense_1 vmp 5 Hz", "dense_1 random 5 Hz"), ("dense_1 vmp 5 Hz", "dense_1 rvp 5 Hz"),
+         ("dense_1 vmp 5 Hz", "dense_1 drive_by 5 Hz"), ("dense_1 vmp 5 Hz", "dense_1 sweep 5 Hz"),
+         ("dense_1 vmp 5 Hz", "dense_1 vmp 5 Hz 2 ms"), ("dense_1 vmp 5 Hz", "dense_1 vmp 5 Hz 10 ms"),
+         ("scenario_1 vmp 0 Hz", "scenario_1 vmp 5 Hz"), ("scenario_1 random 0 Hz", "scenario_1 random 5 Hz"),
+         ("scenario_1 vmp 5 Hz", "scenario_1 random 5 Hz"), ("scenario_1 vmp 5 Hz", "scenario_1 drive_by 5 Hz"),
+         ("scenario_1 vmp 0 Hz d435", "scenario_1 vmp 5 Hz d435"),
+         ("scenario_1 vmp 5 Hz d435", "scenario_1 vmp 5 Hz d435, stamps 30 ms late")]
+
+
+def signed_rank_p(differences):
+    """Wilcoxon's signed ranks, two-sided, exact: over all signs. Zeros are left out, equal sizes share their ranks."""
+    sizes = sorted(abs(d) for d in differences if d != 0)
+    ranks = [statistics.mean(i + 1 for i, size in enumerate(sizes) if size == abs(d)) for d in differences if d != 0]
+    found = sum(rank for rank, d in zip(ranks, (d for d in differences if d != 0)) if d > 0)
+    sums = [0.0]
+    for rank in ranks:
+        sums += [s + rank for s in sums]
+    least = min(found, sum(ranks) - found)
+    return min(1.0, 2.0 * sum(s <= least + 1e-9 for s in sums) / len(sums))
+
+
+def pairs():
+    lines = {(line["row"], int(line["seed"])): line for line in done()}
+    print("| from → to | seeds | found | AUC | surface F1 |")
+    print("|---|---|---|---|---|")
+    for first, second in PAIRS:
+        seeds = [seed for row, seed in lines if row == first and (second, seed) in lines]
+        cells = []
+        for key, digits in (("detected", 1), ("auc", 3), ("surface_f1", 3)):
+            differences = [float(lines[second, seed][key]) - float(lines[first, seed][key]) for seed in seeds]
+            centre, half = mean(differences)
+            cells.append(f"{centre:+.{digits}f} ± {half:.{digits}f}, {signed_rank_p(differences):.3f}")
+        print(f"| {first} → {second} | {len(seeds)} | {' | '.join(cells)} |")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seeds", default="1-10")
@@ -140,7 +177,11 @@ def main():
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--table", action="store_true")
     arguments = parser.parse_args()
-    table() if arguments.table else campaign(arguments)
+    if not arguments.table:
+        return campaign(arguments)
+    table()
+    print()
+    pairs()
 
 
 main()

@@ -54,7 +54,10 @@ void remove_others(const fs::path& record, const std::set<std::string>& named) {
 
 void keep_record(const fs::path& record, const fs::path& out, const Yardstick& found) {
   std::optional<Yardstick> known = value_or_stop(known_yardstick(record), kBadInput);
-  if (known && (known->world_hash != found.world_hash || known->protocol != found.protocol)) {
+  // No hash: only runs of the benchmark suite were there so far.
+  const bool same_world =
+      !known || known->world_hash.empty() || known->world_hash == found.world_hash;
+  if (!same_world || (known && known->protocol != found.protocol)) {
     stop_with(kBadInput, {record.string() + " is of another world or protocol (" +
                           known->world_hash + ", " + known->protocol + "; this one: " +
                           found.world_hash + ", " + found.protocol + "); remove it first"});

@@ -3,6 +3,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "canopeer/base/atomic_file.h"
 #include "canopeer/campaign/best_known.h"
@@ -60,7 +63,6 @@ RecordOf suite_record_of(const Suite& suite) {
     fresh.mission = world->name;
     fresh.protocol = run.job.protocol;
     fresh.world_seed = world->seed;
-    fresh.world_hash = world->sha256;
     fresh.fruits_total = world->fruits_counted;
     return RecordPlace{suite_record(world->name, run.job.protocol), fresh};
   };
@@ -80,6 +82,12 @@ std::vector<SuiteReference> references(const std::vector<SuiteWorld>& worlds,
     }
   }
   return all;
+}
+
+void print_score(const SuiteScore& score) {
+  std::printf("%-24s %-12s %s  (%s, %d worlds, %d runs)\n", score.planner.c_str(),
+              score.protocol.c_str(), score_text(score).c_str(),
+              score.normalised ? "AUC / best known" : "AUC", score.worlds, score.runs);
 }
 
 void write_suite(const SuiteArguments& a, const Suite& suite, const CampaignPlan& plan,
@@ -102,11 +110,7 @@ void write_suite(const SuiteArguments& a, const Suite& suite, const CampaignPlan
   value_or_stop(write_file(out / "suite.html", suite_page(results, suite, compare(plan, runs))),
                 kFailed);
   if (a.quiet) return;
-  for (const SuiteScore& score : results.scores) {
-    std::printf("%-24s %-12s %s  (%s, %d worlds, %d runs)\n", score.planner.c_str(),
-                score.protocol.c_str(), score_text(score).c_str(),
-                score.normalised ? "AUC / best known" : "AUC", score.worlds, score.runs);
-  }
+  for (const SuiteScore& score : results.scores) print_score(score);
   std::printf("page     %s\nhand in  %s\n", (out / "suite.html").c_str(),
               (out / "results.json").c_str());
 }
@@ -115,6 +119,20 @@ Suite whole_suite() {
   Suite suite = value_or_stop(load_suite(shipped_data() / "benchmark"), kBadInput);
   value_or_stop(verify_suite(suite), kBadInput);
   return suite;
+}
+
+/// By the records that are here, whatever the entry was normalised by: so all entries compare.
+void print_todays_scores(const std::string& file, const Suite& suite, const SuiteResults& entry) {
+  std::set<std::string> protocols;
+  for (const SuiteRun& run : entry.runs) protocols.insert(run.protocol);
+  const auto worlds = value_or_stop(worlds_of(suite, entry.split), kBadInput);
+  const auto known = references(worlds, {protocols.begin(), protocols.end()});
+  const auto scores = suite_scores(entry.runs, known);
+  for (const SuiteScore& score : scores) print_score(score);
+  if (!same_scores(scores, entry.scores)) {
+    std::printf("%s: its own scores differ, since it was normalised by other records\n",
+                file.c_str());
+  }
 }
 
 void check_entry(const SuiteArguments& a) {
@@ -128,10 +146,7 @@ void check_entry(const SuiteArguments& a) {
     stop_with(kFailed,
               {a.check + ": no valid entry, " + std::to_string(faults.size()) + " faults"});
   }
-  for (const SuiteScore& score : results->scores) {
-    std::printf("%-24s %-12s %s\n", score.planner.c_str(), score.protocol.c_str(),
-                score_text(score).c_str());
-  }
+  print_todays_scores(a.check, suite, *results);
   std::printf("%s: a valid entry, %zu runs\n", a.check.c_str(), results->runs.size());
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "canopeer/base/atomic_file.h"
+#include "canopeer/campaign/suite_results.h"
 #include "canopeer/record/yardstick.h"
 #include "program.h"
 
@@ -58,6 +59,36 @@ TEST(SuiteCommand, RunsIsResumedAndSaysWhatIsHandedIn) {
   const auto bad = test::canopeer({"bench", "--verify-records", (out / "records").string()});
   EXPECT_EQ(bad.status, 1);
   EXPECT_NE(bad.out.find("NOT the same"), std::string::npos) << bad.out;
+}
+
+/// Its own references are anybody's claim.
+TEST(SuiteCommand, AnEntryIsScoredByTodaysRecords) {
+  const test::TemporaryDirectory directory;
+  const Suite suite = load_suite(fs::path(CANOPEER_SOURCE_DIR) / "benchmark").value();
+  SuiteResults entry;
+  entry.suite_version = suite.version;
+  entry.suite_sha256 = suite.sha256;
+  entry.split = "test";
+  for (const SuiteWorld& world : suite.worlds) {
+    if (world.split != "test") continue;
+    SuiteRun run;
+    run.world = world.name;
+    run.protocol = "tight10";
+    run.planner = "mine";
+    run.fruits_total = world.fruits_counted;
+    run.auc = 0.25;
+    entry.runs.push_back(run);
+    entry.references.push_back({world.name, run.protocol, 0.25, "mine"});
+  }
+  entry.scores = suite_scores(entry.runs, entry.references);
+  EXPECT_EQ(entry.scores.at(0).value.mean, 1.0);
+  const fs::path file = directory / "results.json";
+  ASSERT_TRUE(write_file(file, suite_results_json(entry)));
+  const auto check = test::canopeer({"bench", "suite", "--check", file.string()});
+  EXPECT_EQ(check.status, 0) << check.err;
+  EXPECT_NE(check.out.find("a valid entry, 12 runs"), std::string::npos) << check.out;
+  EXPECT_NE(check.out.find("normalised by other records"), std::string::npos) << check.out;
+  EXPECT_EQ(check.out.find("1.000"), std::string::npos) << check.out;
 }
 
 TEST(SuiteCommand, RefusesWhatIsWrongBeforeItRunsAnything) {

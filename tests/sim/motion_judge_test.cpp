@@ -117,6 +117,23 @@ TEST_P(Judges, AgreeOnWholeMotionsAndArcs) {
   }
 }
 
+TEST_P(Judges, CallFreeWhatTouchesNothing) {
+  Rng rng(5, "free motions");
+  const MotionJudge without_map(stop().robot, stop().scene);
+  int free = 0;
+  constexpr int kMotions = 80;
+  for (int i = 0; i < kMotions; ++i) {
+    std::vector<Configuration> waypoints;
+    for (int k = 0; k < i % 4 + 1; ++k) waypoints.push_back(stop().around_home(rng, 0.3));
+    const Verdict verdict = without_map.judge(waypoints, stop().trolley, nullptr);
+    const bool expected = !verdict.collision && !verdict.plant_contact;
+    EXPECT_EQ(without_map.free(waypoints, stop().trolley), expected);
+    free += expected ? 1 : 0;
+  }
+  EXPECT_GT(free, 5);
+  EXPECT_LT(free, kMotions - 5);
+}
+
 INSTANTIATE_TEST_SUITE_P(Worlds, Judges, ::testing::Values("scenario_1", "dense_1"),
                          [](const auto& name) { return std::string(name.param); });
 
@@ -126,6 +143,7 @@ TEST(MotionJudge, HasNothingToSayOfNoMotion) {
   const Verdict verdict = judge.judge({}, {}, nullptr);
   EXPECT_FALSE(verdict.collision);
   EXPECT_FALSE(verdict.plant_contact);
+  EXPECT_TRUE(judge.free({}, {}));
 }
 
 TEST(MotionJudge, SaysTheSameWithMoreStopsKept) {

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <map>
 #include <set>
 
@@ -79,22 +78,10 @@ void check_whole(const SuiteResults& results, const Suite& suite, Faults& faults
   }
 }
 
-bool same(const SuiteScore& a, const SuiteScore& b) {
-  constexpr double kDigits = 1e-9;  // numbers went through text
-  return a.planner == b.planner && a.protocol == b.protocol && a.normalised == b.normalised &&
-         a.worlds == b.worlds && a.runs == b.runs &&
-         std::abs(a.value.mean - b.value.mean) < kDigits &&
-         std::abs(a.value.low95 - b.value.low95) < kDigits &&
-         std::abs(a.value.high95 - b.value.high95) < kDigits;
-}
-
 void check_scores(const SuiteResults& results, Faults& faults) {
-  const std::vector<SuiteScore> scores = suite_scores(results.runs, results.references);
-  bool follows = scores.size() == results.scores.size();
-  for (std::size_t i = 0; follows && i < scores.size(); ++i) {
-    follows = same(scores[i], results.scores[i]);
+  if (!same_scores(suite_scores(results.runs, results.references), results.scores)) {
+    faults.emplace_back("its scores do not follow from its runs");
   }
-  if (!follows) faults.emplace_back("its scores do not follow from its runs");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "canopeer/campaign/suite_score.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -41,6 +42,15 @@ SuiteScore score(const Key& contestant, const std::vector<const SuiteRun*>& runs
   result.worlds = static_cast<int>(means.size());
   result.value = sample_figures(means);
   return result;
+}
+
+bool same(const SuiteScore& a, const SuiteScore& b) {
+  constexpr double kDigits = 1e-9;  // numbers went through text
+  return a.planner == b.planner && a.protocol == b.protocol && a.normalised == b.normalised &&
+         a.worlds == b.worlds && a.runs == b.runs &&
+         std::abs(a.value.mean - b.value.mean) < kDigits &&
+         std::abs(a.value.low95 - b.value.low95) < kDigits &&
+         std::abs(a.value.high95 - b.value.high95) < kDigits;
 }
 
 }  // namespace
@@ -95,6 +105,10 @@ std::vector<SuiteScore> suite_scores(const std::vector<SuiteRun>& runs,
         score(contestant, groups.at(contestant), known, all_known.at(contestant.second)));
   }
   return scores;
+}
+
+bool same_scores(const std::vector<SuiteScore>& a, const std::vector<SuiteScore>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
 }
 
 }  // namespace canopeer

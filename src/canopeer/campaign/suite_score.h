@@ -62,5 +62,7 @@ struct SuiteScore {
 /// runs they have.
 [[nodiscard]] std::vector<SuiteScore> suite_scores(const std::vector<SuiteRun>& runs,
                                                    const std::vector<SuiteReference>& references);
+/// But for the last digits.
+[[nodiscard]] bool same_scores(const std::vector<SuiteScore>& a, const std::vector<SuiteScore>& b);
 
 }  // namespace canopeer

@@ -4,6 +4,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <iterator>
 #include <unordered_map>
@@ -68,6 +69,16 @@ std::vector<Configuration> states_along(const std::vector<Configuration>& waypoi
     }
   }
   return states;
+}
+
+/// All numbers below `count`: the middle, the quarters, the eighths and so on, and zero.
+std::vector<std::size_t> far_apart_first(std::size_t count) {
+  std::vector<std::size_t> order;
+  for (std::size_t half = std::bit_floor(count); half > 0; half /= 2) {
+    for (std::size_t i = half; i < count; i += 2 * half) order.push_back(i);
+  }
+  order.push_back(0);
+  return order;
 }
 
 /// Whether parts that no arm joint moves touch each other. All states of a stop have that in
@@ -162,6 +173,30 @@ Verdict MotionJudge::judge(const std::vector<Configuration>& waypoints, const Tr
     verdict.plant_contact |= v.plant_contact;
   }
   return verdict;
+}
+
+bool MotionJudge::touches(const Configuration& q, const TrolleyState& trolley, Stop& stop) const {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (stop.space.surely_free(q)) return false;
+  }
+  return checker_.touches(q, trolley, stop.plants(robot_, scene_)) ||
+         checker_.check(q, trolley, nullptr).any();
+}
+
+bool MotionJudge::free(const std::vector<Configuration>& waypoints,
+                       const TrolleyState& trolley) const {
+  const auto states = states_along(waypoints, step_rad_);
+  if (states.empty()) return true;
+  std::shared_ptr<Stop> stop;
+  {
+    const std::scoped_lock lock(mutex_);
+    tbb::this_task_arena::isolate([&] { stop = stop_at(trolley, states.front(), nullptr); });
+  }
+  if (stop->rest_touches) return false;
+  const auto order = far_apart_first(states.size());
+  return std::none_of(order.begin(), order.end(),
+                      [&](std::size_t i) { return touches(states[i], trolley, *stop); });
 }
 
 }  // namespace canopeer

@@ -63,8 +63,7 @@ bool PoolMotions::judge(int segment, int from, int to) {
   }
   const Configuration& a = q(segment, from);
   const Configuration b = robot_.endless().nearest(q(segment, to), a);
-  const Verdict verdict = judge_.judge({a, b}, mission_.segments[s].trolley, nullptr);
-  const bool free = !verdict.collision && !verdict.plant_contact;
+  const bool free = judge_.free({a, b}, mission_.segments[s].trolley);
   verdicts_.keep(s, in_pool(segment, from), in_pool(segment, to), free);
   return free;
 }

@@ -137,9 +137,7 @@ std::optional<Configuration> FreeViews::reach(const Vec3& position_base,
 }
 
 bool FreeViews::is_free(const Configuration& q) const {
-  if (space_.surely_free(q)) return true;
-  const Verdict verdict = judge_.judge({q}, frame_.trolley, nullptr);
-  return !verdict.collision && !verdict.plant_contact;
+  return space_.surely_free(q) || judge_.free({q}, frame_.trolley);
 }
 
 }  // namespace canopeer
