@@ -87,11 +87,16 @@ std::vector<int> numbers_in(const std::string& text) {
   return numbers;
 }
 
-/// Executed by the planner `playback` in the simulator, as any planner's run; leaves `missed.txt`.
-/// None: the mission came to an end before its time, e.g. since there was no way home.
-std::optional<Summary> execute(const BoundArguments& arguments, const BoundWorld& world,
-                               const fs::path& plan, const std::vector<int>& promised,
-                               const fs::path& out) {
+/// How a plan's run ended, and in which segment.
+struct Execution {
+  std::optional<Summary> summary;  ///< none: before its time, e.g. since there was no way home
+  std::size_t segment = 0;
+  std::string why;
+};
+
+/// By the planner `playback` in the simulator, as any planner's run; leaves `missed.txt`.
+Execution execute(const BoundArguments& arguments, const BoundWorld& world, const fs::path& plan,
+                  const std::vector<int>& promised, const fs::path& out) {
   Overrides overrides = bound_overrides(arguments);
   overrides.emplace_back("planner", "playback");
   overrides.emplace_back("playback.plan", fs::absolute(plan).string());
@@ -107,11 +112,9 @@ std::optional<Summary> execute(const BoundArguments& arguments, const BoundWorld
   run->steer(signals);
   run->watch(std::make_shared<MissionProgress>(arguments.quiet), {.name = "the progress bar"});
   auto executed = run->execute();
-  if (!run->outcome()) {
-    std::fprintf(stderr, "canopeer: notice: %s: %s\n", plan.c_str(),
-                 run->outcome().error().message.c_str());
-    return std::nullopt;
-  }
+  const auto& segments = run->record().segments;
+  const auto last = static_cast<std::size_t>(segments.empty() ? 0 : segments.back().segment);
+  if (!run->outcome()) return {std::nullopt, last, run->outcome().error().message};
   Summary summary = value_or_stop(std::move(executed), kFailed);
   if (run->interrupted()) {
     std::fprintf(stderr, "canopeer: interrupted; the same command goes on from what is in %s\n",
@@ -120,7 +123,29 @@ std::optional<Summary> execute(const BoundArguments& arguments, const BoundWorld
   }
   const std::vector<int> ids = missed(*run, world.scene(), promised);
   value_or_stop(write_file(out / "missed.txt", numbers_text(ids)), kFailed);
-  return summary;
+  return {std::move(summary), last, ""};
+}
+
+/// Until a run comes to its end, the plan loses half of its views in the segment where it did not,
+/// or in the last one before that has any. What the camera's noise puts into the map is not in the
+/// scene, so no plan reckons with it.
+std::optional<Summary> execute_or_shorten(const BoundArguments& arguments, const BoundWorld& world,
+                                          const fs::path& file, ClairvoyantPlan& plan,
+                                          const fs::path& out) {
+  while (true) {
+    value_or_stop(write_view_plan(file, plan.plan), kFailed);
+    Execution execution = execute(arguments, world, file, plan.fruit_ids, out);
+    if (execution.summary) return execution.summary;
+    auto& segments = plan.plan.segments;
+    std::size_t at = execution.segment;
+    while (at > 0 && segments.at(at).empty()) --at;
+    auto& views = segments.at(at);
+    if (views.empty()) return std::nullopt;
+    std::fprintf(
+        stderr, "canopeer: notice: %s: %s; tried with %zu of its %zu views of segment %zu\n",
+        file.filename().c_str(), execution.why.c_str(), views.size() / 2, views.size(), at);
+    views.resize(views.size() / 2);
+  }
 }
 
 BestResult result_of(const BoundArguments& arguments, const Summary& summary,
@@ -159,10 +184,9 @@ std::optional<Executed> make(const BoundArguments& arguments, const BoundWorld& 
   } else if (says(no_end, words)) {
     return std::nullopt;
   } else {
-    const ClairvoyantPlan plan = plan_for(world, pool, rule, job.objective, factors, verdicts);
+    ClairvoyantPlan plan = plan_for(world, pool, rule, job.objective, factors, verdicts);
     const fs::path plan_path = fs::path(arguments.out) / plan_name;
-    value_or_stop(write_view_plan(plan_path, plan.plan), kFailed);
-    const auto executed = execute(arguments, world, plan_path, plan.fruit_ids, out);
+    const auto executed = execute_or_shorten(arguments, world, plan_path, plan, out);
     if (!executed) {
       value_or_stop(write_file(no_end, words), kFailed);
       return std::nullopt;
