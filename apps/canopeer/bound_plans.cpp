@@ -126,9 +126,7 @@ Execution execute(const BoundArguments& arguments, const BoundWorld& world, cons
   return {std::move(summary), last, ""};
 }
 
-/// Until a run comes to its end, the plan loses half of its views in the segment where it did not,
-/// or in the last one before that has any. What the camera's noise puts into the map is not in the
-/// scene, so no plan reckons with it.
+/// Until a run comes to its end, its plan is made shorter.
 std::optional<Summary> execute_or_shorten(const BoundArguments& arguments, const BoundWorld& world,
                                           const fs::path& file, ClairvoyantPlan& plan,
                                           const fs::path& out) {
@@ -136,15 +134,11 @@ std::optional<Summary> execute_or_shorten(const BoundArguments& arguments, const
     value_or_stop(write_view_plan(file, plan.plan), kFailed);
     Execution execution = execute(arguments, world, file, plan.fruit_ids, out);
     if (execution.summary) return execution.summary;
-    auto& segments = plan.plan.segments;
-    std::size_t at = execution.segment;
-    while (at > 0 && segments.at(at).empty()) --at;
-    auto& views = segments.at(at);
-    if (views.empty()) return std::nullopt;
-    std::fprintf(
-        stderr, "canopeer: notice: %s: %s; tried with %zu of its %zu views of segment %zu\n",
-        file.filename().c_str(), execution.why.c_str(), views.size() / 2, views.size(), at);
-    views.resize(views.size() / 2);
+    const auto at = shorten(plan.plan, execution.segment);
+    if (!at) return std::nullopt;
+    std::fprintf(stderr, "canopeer: notice: %s: %s; tried with %zu views in segment %zu\n",
+                 file.filename().c_str(), execution.why.c_str(), plan.plan.segments[*at].size(),
+                 *at);
   }
 }
 

@@ -173,5 +173,18 @@ TEST_F(ClairvoyantTest, SaysWhatDoesNotFit) {
   EXPECT_NE(error().find("3 joint positions"), std::string::npos);
 }
 
+TEST(ShorterPlan, LosesViewsInTheSegmentOrBeforeIt) {
+  const Configuration q = Configuration::Zero(6);
+  ViewPlan plan{{{q, q, q}, {q}, {}, {q, q}}};
+  EXPECT_EQ(shorten(plan, 2), 1U);
+  EXPECT_TRUE(plan.segments[1].empty());
+  EXPECT_EQ(shorten(plan, 2), 0U);
+  EXPECT_EQ(plan.segments[0].size(), 1U);
+  EXPECT_EQ(shorten(plan, 9), 3U);
+  EXPECT_EQ(plan.segments[3].size(), 1U);
+  EXPECT_EQ(shorten(plan, 1), 0U);
+  EXPECT_EQ(shorten(plan, 1), std::nullopt);
+}
+
 }  // namespace
 }  // namespace canopeer

@@ -171,4 +171,14 @@ Expected<ClairvoyantPlan> plan_clairvoyant(const ViewPool& pool, const RobotMode
   return result;
 }
 
+std::optional<std::size_t> shorten(ViewPlan& plan, std::size_t segment) {
+  for (std::size_t n = std::min(segment + 1, plan.segments.size()); n > 0; --n) {
+    auto& views = plan.segments[n - 1];
+    if (views.empty()) continue;
+    views.resize(views.size() / 2);
+    return n - 1;
+  }
+  return std::nullopt;
+}
+
 }  // namespace canopeer

@@ -79,4 +79,9 @@ struct ClairvoyantPlan {
     const MissionOptions& mission, const FindRule& rule, const ClairvoyantOptions& options,
     MotionVerdicts* verdicts = nullptr);
 
+/// Leaves out the second half of a segment's views, or of the last segment before it that has any.
+/// Returns that segment; nothing when there is none. For a run that found no way home from there:
+/// what the camera's noise puts into its map is not in the scene, so no plan reckons with it.
+std::optional<std::size_t> shorten(ViewPlan& plan, std::size_t segment);
+
 }  // namespace canopeer
