@@ -24,20 +24,26 @@ void make_folder(const fs::path& folder) {
   if (code) stop_with(kFailed, {folder.string() + ": cannot be made: " + code.message()});
 }
 
-/// What the world is, and what can be seen in it at all.
-BoundResults start_with_ceiling(const BoundArguments& arguments, const BoundWorld& world,
-                                const ViewPool& pool) {
+Yardstick unknown_yet(const BoundWorld& world) {
   const MissionOptions& mission = world.file().mission;
-  BoundResults results;
-  results.rule.min_area_cm2 = arguments.min_area_cm2.value_or(results.rule.min_area_cm2);
-  results.ceiling = ceiling_of(pool, results.rule);
-  results.cover = cover_of(pool, results.rule);
-  Yardstick& y = results.yardstick;
+  Yardstick y;
   y.mission = mission.name;
   y.protocol = mission.protocol.empty() ? "own" : mission.protocol;
   y.world_seed = mission.seed;
   y.world_hash = hash_text(world.hash);
   y.fruits_total = world.scene().counted_fruits();
+  return y;
+}
+
+/// What the world is, and what can be seen in it at all.
+BoundResults start_with_ceiling(const BoundArguments& arguments, const BoundWorld& world,
+                                const ViewPool& pool) {
+  BoundResults results;
+  results.yardstick = unknown_yet(world);
+  results.rule.min_area_cm2 = arguments.min_area_cm2.value_or(results.rule.min_area_cm2);
+  results.ceiling = ceiling_of(pool, results.rule);
+  results.cover = cover_of(pool, results.rule);
+  Yardstick& y = results.yardstick;
   y.ceiling_fruits = results.ceiling.fruits;
   y.ceiling_surface = results.ceiling.surface;
   y.ceiling_views = results.ceiling.views;
@@ -67,6 +73,7 @@ void bound(const BoundArguments& arguments) {
   }
   const fs::path out = arguments.out;
   const BoundWorld world = make_bound_world(arguments);
+  if (!arguments.record.empty()) expect_same_world(arguments.record, unknown_yet(world));
   make_folder(out);
   const ViewPool pool = sampled_views(arguments, world);
   BoundResults results = start_with_ceiling(arguments, world, pool);

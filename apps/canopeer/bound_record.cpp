@@ -52,16 +52,23 @@ void remove_others(const fs::path& record, const std::set<std::string>& named) {
 
 }  // namespace
 
-void keep_record(const fs::path& record, const fs::path& out, const Yardstick& found) {
-  std::optional<Yardstick> known = value_or_stop(known_yardstick(record), kBadInput);
+void expect_same_world(const fs::path& record, const Yardstick& found) {
+  const std::optional<Yardstick> known = value_or_stop(known_yardstick(record), kBadInput);
+  if (!known) return;
+  const auto words = [](const Yardstick& y) {
+    return y.mission + ", world " + y.world_hash + ", " + y.protocol;
+  };
   // No hash: only runs of the benchmark suite were there so far.
-  const bool same_world =
-      !known || known->world_hash.empty() || known->world_hash == found.world_hash;
-  if (!same_world || (known && known->protocol != found.protocol)) {
-    stop_with(kBadInput, {record.string() + " is of another world or protocol (" +
-                          known->world_hash + ", " + known->protocol + "; this one: " +
-                          found.world_hash + ", " + found.protocol + "); remove it first"});
-  }
+  const bool same = known->mission == found.mission && known->protocol == found.protocol &&
+                    (known->world_hash.empty() || known->world_hash == found.world_hash);
+  if (same) return;
+  stop_with(kBadInput, {record.string() + " is of another world (" + words(*known) +
+                        "; this one: " + words(found) + "); remove it first"});
+}
+
+void keep_record(const fs::path& record, const fs::path& out, const Yardstick& found) {
+  expect_same_world(record, found);
+  std::optional<Yardstick> known = value_or_stop(known_yardstick(record), kBadInput);
   const std::set<std::string> there = known ? plans_of(*known) : std::set<std::string>();
   std::map<std::string, std::string> copied;  // from the folder's names to those beside the record
   Yardstick kept = found;
