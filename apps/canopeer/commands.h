@@ -76,6 +76,12 @@ struct MapFuseArguments {
   bool quiet = false;
 };
 
+struct MapArguments {
+  std::string in;
+  std::string out;
+  MapFuseArguments fuse;
+};
+
 struct FruitFitArguments {
   std::string cloud;
   std::string out;
@@ -93,44 +99,45 @@ struct ImportArguments {
   std::string out;
 };
 
-struct BenchArguments {
+/// What every campaign is told.
+struct CampaignArguments {
   const RunRegistries* registries = nullptr;  ///< what the missions may name
-  std::vector<std::string> missions;
-  std::vector<std::string> planners = {"vmp", "vmp_released@reference", "rvp", "rvp@reference"};
-  std::vector<double> budgets_s;  ///< seconds per segment; empty: the missions'
+  std::vector<std::string> planners;
   std::vector<std::string> protocols;
-  std::string yardsticks;  ///< folder of them; empty: none
   std::vector<std::string> settings;
-  int runs = 5;
-  std::uint64_t first_seed = 1;
-  std::optional<int> segments;
   int jobs = 1;     ///< processes at a time
   int threads = 0;  ///< of each run; 0: the cores shared among the jobs
   std::string shard;
-  std::vector<std::string> merge;  ///< folders of campaigns to join into `out`
   std::string out;
-  bool keep_maps = false;
   bool report_only = false;
   bool quiet = false;
+};
+
+struct BenchArguments : CampaignArguments {
+  BenchArguments() { planners = {"vmp", "vmp_released@reference", "rvp", "rvp@reference"}; }
+
+  std::vector<std::string> missions;
+  std::vector<double> budgets_s;  ///< seconds per segment; empty: the missions'
+  std::string yardsticks;         ///< folder of them; empty: none
+  int runs = 5;
+  std::uint64_t first_seed = 1;
+  std::optional<int> segments;
+  std::vector<std::string> merge;  ///< folders of campaigns to join into `out`
+  bool keep_maps = false;
   bool progress = false;  ///< the bar even when quiet
 };
 
 /// The suite of frozen worlds, docs/benchmark.md.
-struct SuiteArguments {
-  const RunRegistries* registries = nullptr;
-  std::vector<std::string> planners = {"vmp", "rvp", "random"};
-  std::vector<std::string> protocols = {"tight10"};
+struct SuiteArguments : CampaignArguments {
+  SuiteArguments() {
+    planners = {"vmp", "rvp", "random"};
+    protocols = {"tight10"};
+  }
+
   std::vector<std::string> worlds;  ///< only these; empty: those of the split
-  std::vector<std::string> settings;
   std::string split = "test";
   int seeds = 3;
-  int jobs = 1;
-  int threads = 0;
-  std::string shard;
-  std::string out;
   std::string check;  ///< a results file to look at, in place of runs
-  bool report_only = false;
-  bool quiet = false;
 };
 
 struct VerifyArguments {

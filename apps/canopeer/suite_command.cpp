@@ -27,18 +27,10 @@ namespace fs = std::filesystem;
 BenchArguments bench_of(const SuiteArguments& a, const std::vector<SuiteWorld>& worlds,
                         bool with_records) {
   BenchArguments bench;
-  bench.registries = a.registries;
+  static_cast<CampaignArguments&>(bench) = a;
   for (const SuiteWorld& world : worlds) bench.missions.push_back(world.mission.string());
-  bench.planners = a.planners;
-  bench.protocols = a.protocols;
   if (with_records) bench.yardsticks = (records_folder() / "suite").string();
-  bench.settings = a.settings;
   bench.runs = a.seeds;
-  bench.jobs = a.jobs;
-  bench.threads = a.threads;
-  bench.shard = a.shard;
-  bench.out = a.out;
-  bench.report_only = a.report_only;
   bench.quiet = true;
   bench.progress = !a.quiet;
   return bench;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 
@@ -24,8 +25,28 @@ std::vector<std::string> suite(const fs::path& out, const std::vector<std::strin
   return words;
 }
 
+/// What ships with the program but for its records, as long as it lives.
+class WithoutRecords {
+ public:
+  WithoutRecords() {
+    fs::create_directory(directory_ / "data");
+    for (const auto& entry : fs::directory_iterator(CANOPEER_SOURCE_DIR)) {
+      if (!entry.is_directory() || entry.path().filename() == "records") continue;
+      fs::create_directory_symlink(entry, directory_ / "data" / entry.path().filename());
+    }
+    setenv("CANOPEER_DATA", (directory_ / "data").c_str(), 1);
+  }
+  ~WithoutRecords() { unsetenv("CANOPEER_DATA"); }
+  WithoutRecords(const WithoutRecords&) = delete;
+  WithoutRecords& operator=(const WithoutRecords&) = delete;
+
+ private:
+  test::TemporaryDirectory directory_;
+};
+
 /// The tiny suite: one world, two planners; made, resumed, handed in, its record verified.
 TEST(SuiteCommand, RunsIsResumedAndSaysWhatIsHandedIn) {
+  const WithoutRecords data;
   const test::TemporaryDirectory directory;
   const fs::path out = directory / "suite";
   const auto half = test::canopeer(suite(out, {"--shard", "1/2"}));
