@@ -9,7 +9,7 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 mapfile -t wanted < <(sed -e 's/#.*//' -e 's/[[:space:]]//g' -e '/^$/d' "$root/packages.txt")
 if [ "${DEB_HOST_ARCH:-}" = arm64 ]; then
   # Libraries of that machine's, or those for all; tools as they are.
-  mapfile -t wanted < <(printf '%s\n' "${wanted[@]}" | sed -E 's/(^|\|)((lib|zlib)[^|?]*)/\1\2:arm64|\2/g')
+  mapfile -t wanted < <(printf '%s\n' "${wanted[@]}" | sed -E 's/(^|\|)((lib|zlib|coinor-lib)[^|?]*)/\1\2:arm64|\2/g')
   wanted+=(g++-aarch64-linux-gnu qemu-user)
 fi
 for i in "${!wanted[@]}"; do
