@@ -76,6 +76,17 @@ void check_yardsticks(const CampaignPlan& plan) {
                         (plan.budgets_s.empty() ? "" : ", and --protocols in place of --budgets")});
 }
 
+/// Who makes no runs wants to see those that are there. None yet is no fault: a campaign on a
+/// cluster begins so.
+void tell_when_empty(const CampaignPlan& plan, const fs::path& out) {
+  const auto jobs = all_jobs(plan);
+  const bool any = std::any_of(jobs.begin(), jobs.end(),
+                               [&](const CampaignJob& job) { return is_done(out, job); });
+  if (any) return;
+  std::fprintf(stderr, "canopeer: %s holds no run of this comparison yet, such as %s\n",
+               out.c_str(), jobs.front().dir.c_str());
+}
+
 /// Every mission with every planner must load, before hours are spent on the others.
 void check_inputs(const CampaignPlan& plan, const RunRegistries& registries) {
   for (const auto& job : all_jobs(plan)) {
@@ -184,6 +195,7 @@ void bench(const BenchArguments& arguments) {
   check_yardsticks(plan);
   check_inputs(plan, *arguments.registries);
   const fs::path out = arguments.out;
+  if (arguments.report_only && (!arguments.quiet || arguments.progress)) tell_when_empty(plan, out);
   std::error_code code;
   fs::create_directories(out, code);
   if (code) stop_with(kFailed, {out.string() + ": cannot be made: " + code.message()});

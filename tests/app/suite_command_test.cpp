@@ -125,6 +125,10 @@ TEST(SuiteCommand, RefusesWhatIsWrongBeforeItRunsAnything) {
     EXPECT_FALSE(fs::exists(out / "runs")) << named;
   }
   EXPECT_EQ(test::canopeer({"bench", "suite"}).status, 2);
+  // No runs yet are no fault, but a word.
+  const auto none = test::canopeer(suite(out, {"--report-only"}));
+  EXPECT_EQ(none.status, 0);
+  EXPECT_NE(none.err.find("holds no run"), std::string::npos) << none.err;
   EXPECT_EQ(test::canopeer({"bench"}).status, 2);
 }
 
