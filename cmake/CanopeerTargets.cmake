@@ -46,7 +46,7 @@ endfunction()
 
 # Where a run spends no time (commands, settings, reports) less optimisation costs nothing and saves a third of the compiler's.
 function(canopeer_compile_lightly target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>)
 endfunction()
 
 # canopeer_module(<name> SOURCES <file>… [DEPENDS <module or public library>…] [PRIVATE <library>…] [SYSTEM <include dir>…])
