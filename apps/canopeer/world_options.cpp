@@ -7,34 +7,33 @@ namespace canopeer::app {
 namespace {
 
 void add_import(CLI::App& scene, ImportArguments& arguments) {
-  CLI::App* import = scene.add_subcommand(
+  CLI::App* command = scene.add_subcommand(
       "import", "Read a world or mesh that is there already; write scene, ground truth, picture");
-  import->add_option("world", arguments.world, "SDF world, mesh, or scene file of scanned plants")
+  command->add_option("world", arguments.world, "SDF world, mesh, or scene file of scanned plants")
       ->required();
-  import
+  command
       ->add_option("--model-path", arguments.model_paths,
                    "Folder of models, for model:// (repeatable)")
       ->expected(1)
       ->take_all();
-  import->add_option("--fruit", arguments.patterns.fruit,
-                     "Pattern on the names of what is fruit: material, texture, mesh or model");
-  import->add_option("--counted", arguments.patterns.counted,
-                     "Pattern on the names of fruits that count (default: all)");
-  import->add_option("--leaf", arguments.patterns.leaf, "Pattern on the names of leaves");
-  import->add_option("--stem", arguments.patterns.stem,
-                     "Pattern on the names of stems (default: what else is in a plant)");
-  import->add_option("--plant", arguments.patterns.plant,
-                     "Pattern on models that are plants though nothing in them matches");
-  import->add_option("--skip", arguments.patterns.skip,
-                     "Pattern on the names of what to leave out");
-  import->add_option("--min-fruit-cm3", arguments.min_fruit_cm3,
-                     "Smaller pieces of fruit surface are no fruits");
-  import->add_flag("--ignore-up-axis", arguments.ignore_up_axis,
-                   "Take COLLADA coordinates as they are, as Gazebo does");
-  import->add_option("--out", arguments.out, "Directory for the results")->required();
-  import->callback([&arguments] { scene_import(arguments);
-});
-}  // namespace
+  command->add_option("--fruit", arguments.patterns.fruit,
+                      "Pattern on the names of what is fruit: material, texture, mesh or model");
+  command->add_option("--counted", arguments.patterns.counted,
+                      "Pattern on the names of fruits that count (default: all)");
+  command->add_option("--leaf", arguments.patterns.leaf, "Pattern on the names of leaves");
+  command->add_option("--stem", arguments.patterns.stem,
+                      "Pattern on the names of stems (default: what else is in a plant)");
+  command->add_option("--plant", arguments.patterns.plant,
+                      "Pattern on models that are plants though nothing in them matches");
+  command->add_option("--skip", arguments.patterns.skip,
+                      "Pattern on the names of what to leave out");
+  command->add_option("--min-fruit-cm3", arguments.min_fruit_cm3,
+                      "Smaller pieces of fruit surface are no fruits");
+  command->add_flag("--ignore-up-axis", arguments.ignore_up_axis,
+                    "Take COLLADA coordinates as they are, as Gazebo does");
+  command->add_option("--out", arguments.out, "Directory for the results")->required();
+  command->callback([&arguments] { scene_import(arguments); });
+}
 
 void add_map_fuse(CLI::App& map, MapFuseArguments& a) {
   CLI::App* fuse = map.add_subcommand(
@@ -81,7 +80,7 @@ void add_map_fuse(CLI::App& map, MapFuseArguments& a) {
   fuse->callback([&a] { map_fuse(a); });
 }
 
-}  // namespace canopeer::app
+}  // namespace
 
 void add_scene(CLI::App& app, SceneArguments& arguments, ImportArguments& import_arguments) {
   CLI::App* scene = app.add_subcommand("scene", "Look at the world of a mission, or bring one");

@@ -16,7 +16,7 @@ endfunction()
 set(python /usr/bin/python3)
 set(installed ${FOLDER}/install)
 file(REMOVE_RECURSE ${FOLDER})
-run(${CMAKE_COMMAND} -S ${PACKAGE} -B ${FOLDER}/build -DCMAKE_INSTALL_PREFIX=${installed} -DCANOPEER_PROGRAM=${PROGRAM}
+run(${CMAKE_COMMAND} -G Ninja -S ${PACKAGE} -B ${FOLDER}/build -DCMAKE_INSTALL_PREFIX=${installed} -DCANOPEER_PROGRAM=${PROGRAM}
     -DPython3_EXECUTABLE=${python})
 run(${CMAKE_COMMAND} --build ${FOLDER}/build)
 run(${CMAKE_COMMAND} --install ${FOLDER}/build)

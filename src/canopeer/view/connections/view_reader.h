@@ -10,7 +10,6 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <utility>  // Boost 1.74 forgets it
 
 #include "canopeer/view/connections/view_shared.h"
 
