@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <future>
 #include <mutex>
 
 #include "canopeer/cdr/messages/sensor_msgs.h"
@@ -253,6 +254,31 @@ TEST(Node, AKilledPeerMayComeBack) {
   EXPECT_TRUE(eventually([&] { return hearer->participant().peers().empty(); }))
       << "one said that it goes, the other was missed";
   EXPECT_EQ(listener.writers(), 0U);
+}
+
+TEST(Node, WhileAListenerIsBusyOthersComeAndGo) {
+  const auto hearer = make_node("hearer");
+  std::promise<void> begun;
+  std::promise<void> go;
+  const auto listener = must(hearer->subscribe<std_msgs::String>(
+      "/chatter", kDefaultQos, [&](std_msgs::String&&, const Guid&) {
+        begun.set_value();
+        go.get_future().wait();
+      }));
+  const auto talker = make_node("talker");
+  const auto publisher = must(talker->advertise<std_msgs::String>("/chatter"));
+  ASSERT_TRUE(eventually([&] { return publisher.readers() == 1; }));
+  publisher.publish({"a long story"});
+  begun.get_future().wait();
+  auto other = make_node("other");
+  {
+    const auto another = must(other->advertise<std_msgs::String>("/chatter"));
+    EXPECT_TRUE(eventually([&] { return listener->matched().size() == 2; }));
+  }
+  EXPECT_TRUE(eventually([&] { return listener->matched().size() == 1; }));
+  other.reset();
+  EXPECT_TRUE(eventually([&] { return hearer->participant().peers().size() == 1; }));
+  go.set_value();
 }
 
 TEST(Node, OneThatWasMadeAnewIsFound) {

@@ -42,6 +42,9 @@ MailProg=/bin/true
 NodeName=loop NodeHostname=$host NodeAddr=127.0.0.1 CPUs=2
 PartitionName=main Nodes=loop Default=YES MaxTime=INFINITE
 EOF
+  # Slurm 24 wants control groups, which a container may not have; 22 does not know the word.
+  [[ $(slurmd -V) =~ ([0-9]+)\.([0-9]+) ]] || return 1
+  [ "$((10#${BASH_REMATCH[1]}${BASH_REMATCH[2]}))" -lt 2405 ] || echo "CgroupPlugin=disabled" >"$folder/cgroup.conf"
 }
 
 daemons=()

@@ -87,7 +87,7 @@ class ActionClient {
 };
 
 /// A server of action type `A`. Goals may overlap: `accept` and `start` decide what becomes of the
-/// one before. Handlers run in a thread of the DDS library, one at a time.
+/// one before. Handlers run in the node's thread, one at a time.
 template <class A>
 class ActionServer {
  public:

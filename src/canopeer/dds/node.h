@@ -79,7 +79,7 @@ class Node {
     if (!writer) return tl::unexpected(writer.error());
     return Publisher<Message>(std::move(*writer));
   }
-  /// `on_message(Message&&, const Guid& writer)`, in a thread of the DDS library, one at a time.
+  /// `on_message(Message&&, const Guid& writer)`, in the node's thread, one at a time.
   /// Malformed ones, and those longer than the type's `kMostOctets`, are counted and dropped.
   template <class Message, class Callback>
   [[nodiscard]] Expected<Subscription> subscribe(const std::string& topic, const Qos& qos,

@@ -38,6 +38,7 @@
 #include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
+#include "canopeer/dds/delivery.h"
 #include "canopeer/dds/peers.h"
 
 namespace canopeer::ros {
@@ -54,7 +55,6 @@ constexpr auto kOk = eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
 #endif
 
 constexpr std::uint32_t kSocketBuffer = 4u << 20;
-constexpr VendorId kCycloneVendor{0x01, 0x10};
 // Where discovery is heard (DDSI-RTPS 2.3, 9.6.1).
 constexpr int kMulticastPort = 7400;
 constexpr int kPortsOfDomain = 250;
@@ -209,6 +209,13 @@ void fill(FastQos& to, const Qos& qos, const std::string& user_data) {
 
 // ---- Writers and readers ----------------------------------------------------------------------
 
+/// Samples that wait to be told: of what may get lost the last ones, of what must not as many as of
+/// a service.
+std::size_t waiting_at_most(const Qos& qos) {
+  constexpr int kReliable = 1000;
+  return static_cast<std::size_t>(qos.reliable ? std::max(qos.depth, kReliable) : qos.depth);
+}
+
 /// Who is matched, kept here so that asking never waits for a lock of the library.
 class Matched {
  public:
@@ -223,13 +230,6 @@ class Matched {
     const std::lock_guard lock(mutex_);
     return {guids_.begin(), guids_.end()};
   }
-  /// An id begins with its maker's.
-  [[nodiscard]] bool any_of(const VendorId& vendor) const {
-    const std::lock_guard lock(mutex_);
-    return std::any_of(guids_.begin(), guids_.end(), [&](const Guid& guid) {
-      return guid[0] == vendor[0] && guid[1] == vendor[1];
-    });
-  }
 
  private:
   mutable std::mutex mutex_;
@@ -238,13 +238,10 @@ class Matched {
 
 class FastWriter final : public Writer, fast::DataWriterListener {
  public:
-  FastWriter(fast::Publisher& publisher, std::function<void()> on_match)
-      : publisher_(publisher), on_match_(std::move(on_match)) {}
+  FastWriter(fast::Publisher& publisher, Delivery& delivery, std::function<void()> on_match)
+      : publisher_(publisher), on_match_(std::move(on_match)), lane_(delivery, 1, 0) {}
   ~FastWriter() override {
-    {
-      const std::lock_guard gate(gate_);
-      closed_ = true;
-    }
+    lane_.close();
     if (writer_ != nullptr) publisher_.delete_datawriter(writer_);
   }
   bool open(fast::Topic& topic, const Qos& qos, const std::string& user_data) {
@@ -274,7 +271,6 @@ class FastWriter final : public Writer, fast::DataWriterListener {
     Octets octets{payload, {}};
     rtps::WriteParams parameters;
     if (related) parameters.related_sample_identity(from_identity(*related));
-    if (heartbeat_first_ && matched_.any_of(kCycloneVendor)) writer_->assert_liveliness();
 #if CANOPEER_FAST_DDS >= 3
     const bool written = writer_->write(&octets, parameters) == kOk;
 #else
@@ -288,28 +284,25 @@ class FastWriter final : public Writer, fast::DataWriterListener {
   void on_publication_matched(fast::DataWriter*,
                               const fast::PublicationMatchedStatus& status) override {
     matched_.change(status.current_count_change, status.last_subscription_handle);
-    const std::lock_guard gate(gate_);
-    if (!closed_ && on_match_) on_match_();
+    if (on_match_) lane_.put(0, on_match_);
   }
 
   fast::Publisher& publisher_;
   std::function<void()> on_match_;
-  bool heartbeat_first_ = false;
   Matched matched_;
-  std::mutex gate_;  ///< held while `on_match_` runs
-  bool closed_ = false;
+  Delivery::Lane lane_;
   fast::DataWriter* writer_ = nullptr;
 };
 
 class FastReader final : public Reader, fast::DataReaderListener {
  public:
-  FastReader(fast::Subscriber& subscriber, std::function<void(Sample&&)> on_sample)
-      : subscriber_(subscriber), on_sample_(std::move(on_sample)) {}
+  FastReader(fast::Subscriber& subscriber, Delivery& delivery, const Qos& qos,
+             std::size_t most_octets, std::function<void(Sample&&)> on_sample)
+      : subscriber_(subscriber),
+        on_sample_(std::move(on_sample)),
+        lane_(delivery, waiting_at_most(qos), most_octets) {}
   ~FastReader() override {
-    {
-      const std::lock_guard gate(gate_);
-      closed_ = true;
-    }
+    lane_.close();
     if (reader_ != nullptr) subscriber_.delete_datareader(reader_);
   }
   bool open(fast::Topic& topic, const Qos& qos, const std::string& user_data) {
@@ -328,16 +321,17 @@ class FastReader final : public Reader, fast::DataReaderListener {
 
  private:
   void on_data_available(fast::DataReader* reader) override {
-    const std::lock_guard gate(gate_);
     Octets octets;
     fast::SampleInfo info;
-    while (!closed_ && reader->take_next_sample(&octets, &info) == kOk) {
+    while (reader->take_next_sample(&octets, &info) == kOk) {
       if (!info.valid_data) continue;
       Sample sample{std::move(octets.in), to_identity(info.sample_identity), {}};
       if (info.related_sample_identity.writer_guid() != rtps::GUID_t::unknown()) {
         sample.related = to_identity(info.related_sample_identity);
       }
-      on_sample_(std::move(sample));
+      const std::size_t length = sample.payload.size();
+      lane_.put(length,
+                [this, sample = std::move(sample)]() mutable { on_sample_(std::move(sample)); });
     }
   }
   void on_subscription_matched(fast::DataReader*,
@@ -348,8 +342,7 @@ class FastReader final : public Reader, fast::DataReaderListener {
   fast::Subscriber& subscriber_;
   std::function<void(Sample&&)> on_sample_;
   Matched matched_;
-  std::mutex gate_;  ///< held while `on_sample_` runs
-  bool closed_ = false;
+  Delivery::Lane lane_;
   fast::DataReader* reader_ = nullptr;
 };
 
@@ -440,7 +433,7 @@ class FastParticipant final : public Participant, fast::DomainParticipantListene
                                                          std::function<void()> on_match) override {
     auto to = topic_of(topic, type);
     if (!to) return tl::unexpected(to.error());
-    auto made = std::make_unique<FastWriter>(*publisher_, std::move(on_match));
+    auto made = std::make_unique<FastWriter>(*publisher_, delivery_, std::move(on_match));
     if (!made->open(**to, qos, user_data)) return fail("topic " + topic + ": no writer was made");
     return made;
   }
@@ -450,7 +443,8 @@ class FastParticipant final : public Participant, fast::DomainParticipantListene
                                                          const std::string& user_data) override {
     auto from = topic_of(topic, type);
     if (!from) return tl::unexpected(from.error());
-    auto made = std::make_unique<FastReader>(*subscriber_, std::move(on_sample));
+    auto made = std::make_unique<FastReader>(*subscriber_, delivery_, qos, options_.max_payload,
+                                             std::move(on_sample));
     if (!made->open(**from, qos, user_data)) {
       return fail("topic " + topic + ": no reader was made");
     }
@@ -559,6 +553,7 @@ class FastParticipant final : public Participant, fast::DomainParticipantListene
   const std::int64_t before_ = too_long_count();  ///< samples dropped in this process
   ParticipantId id_{};
   KnownPeers known_;
+  Delivery delivery_;
   fast::DomainParticipant* participant_ = nullptr;
   fast::Publisher* publisher_ = nullptr;
   fast::Subscriber* subscriber_ = nullptr;

@@ -23,13 +23,10 @@ struct Qos {
   bool reliable = true;
   bool transient_local = false;  ///< who comes late gets the last ones
   int depth = 10;
-  /// A heartbeat goes before each sample. A reader of Cyclone DDS that begins to receive a sample
-  /// of several fragments drops it when the first heartbeat comes in the middle.
-  bool heartbeat_first = false;
 };
 inline constexpr Qos kDefaultQos{};
 inline constexpr Qos kSensorQos{false, false, 5};
-inline constexpr Qos kServiceQos{true, false, 10, true};
+inline constexpr Qos kServiceQos{true, false, 10};
 inline constexpr Qos kLatchedQos{true, true, 1};
 inline constexpr Qos kTfQos{true, false, 100};
 
@@ -91,9 +88,11 @@ class Writer {
   [[nodiscard]] virtual std::vector<Guid> matched() const = 0;
 };
 
-/// Its callback runs in a thread of the DDS library, one sample at a time, and stops for good
-/// before the destructor returns. While it runs nothing else is received: it must not wait for
-/// anybody's answer, nor destroy its reader. Goes before its participant.
+/// Its callback runs in a thread of the participant's, one sample at a time, and stops for good
+/// before the destructor returns. While it runs nothing else is told: it must not wait for
+/// anybody's answer, nor destroy its reader. What comes meanwhile waits: the last `depth` samples
+/// where they may get lost, 1000 where not, `max_payload` octets at most. Goes before its
+/// participant.
 class Reader {
  public:
   virtual ~Reader() = default;
@@ -120,8 +119,8 @@ class Participant {
   [[nodiscard]] static Expected<std::unique_ptr<Participant>> join(
       const ParticipantOptions& options);
   [[nodiscard]] virtual ParticipantId id() const = 0;
-  /// `on_match` is called when a reader
-  /// came or went, in a thread of the DDS library, not after the writer's destructor.
+  /// `on_match` is called after readers came or went, in the thread that calls those of readers,
+  /// not after the writer's destructor.
   [[nodiscard]] virtual Expected<std::unique_ptr<Writer>> writer(
       const std::string& topic, const std::string& type, const Qos& qos,
       const std::string& user_data = kUserData, std::function<void()> on_match = {}) = 0;

@@ -18,7 +18,7 @@ class RawClient {
   virtual ~RawClient() = default;
   /// A server's reader and writer are both there.
   [[nodiscard]] virtual bool ready() const = 0;
-  /// Asks; `on_reply` is called once from a thread of the DDS library, or never. The error: nobody
+  /// Asks; `on_reply` is called once from the node's thread, or never. The error: nobody
   /// is there, or servers that speak differently.
   [[nodiscard]] virtual Expected<std::int64_t> ask(Payload request,
                                                    std::function<void(Payload&&)> on_reply) = 0;
@@ -60,7 +60,7 @@ class Client {
   /// the node: that holds up the answer.
   [[nodiscard]] Expected<typename S::Response> call(const typename S::Request& request,
                                                     std::chrono::milliseconds patience);
-  /// Asks; `on_response` comes from a thread of the DDS library, or never.
+  /// Asks; `on_response` comes from the node's thread, or never.
   [[nodiscard]] Expected<std::int64_t> ask(const typename S::Request& request,
                                            std::function<void(typename S::Response&&)> on_response);
   void forget(std::int64_t request) { raw_->forget(request); }
@@ -73,7 +73,7 @@ class Client {
   std::unique_ptr<RawClient> raw_;
 };
 
-/// A server: `handler(Request&&, reply)`, in a thread of the DDS library; `reply(Response)` may be
+/// A server: `handler(Request&&, reply)`, in the node's thread; `reply(Response)` may be
 /// called later, once, from any thread, as long as the server lives.
 template <class S>
 class Server {

@@ -17,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kReaderPatience{5};
 constexpr std::size_t kMostWaiting = 1000;
 /// Replies of one server to all its clients: one must not push another out before it is taken.
-constexpr Qos kReplyQos{true, false, 1000, true};
+constexpr Qos kReplyQos{true, false, 1000};
 constexpr Qos kRequestsHeardQos{true, false, 1000};
 
 /// Where a reply goes and how it is said.

@@ -78,7 +78,7 @@ class ManualDriver : public TrolleyDriver {
     return waiting_for_.has_value();
   }
 
-  /// A person says that it is there. In a thread of the DDS library.
+  /// A person says that it is there. In the node's thread.
   Trigger::Response confirmed() {
     const std::lock_guard lock(mutex_);
     Trigger::Response response;
