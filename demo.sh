@@ -3,7 +3,7 @@
 # CANOPEER_EMULATOR is set where another machine's program is built (scripts/in_debian.sh RELEASE arm64).
 set -euo pipefail
 cd "$(dirname "$0")"
-scripts/build.sh release canopeer
+scripts/build.sh demo canopeer
 out=out/scenario_1
 ${CANOPEER_EMULATOR:-} build/release/bin/canopeer run missions/scenario_1.yaml --out "$out" "$@"
 echo "Open $PWD/$out/report.html in a browser."

@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 smoke='rm -rf out/smoke
-  scripts/build.sh release canopeer >out/smoke.log 2>&1 || { tail -n 40 out/smoke.log; exit 1; }
+  scripts/build.sh demo canopeer >out/smoke.log 2>&1 || { tail -n 40 out/smoke.log; exit 1; }
   ${CANOPEER_EMULATOR:-} build/release/bin/canopeer run missions/smoke.yaml --out out/smoke >>out/smoke.log'
 status=0
 mkdir -p out

@@ -2,11 +2,14 @@
 # Installs what packages.txt lists and this machine lacks (Debian, Ubuntu). Quick and silent when nothing is missing.
 # In packages.txt `a|b` is the first of the two that the release has, `a?` is installed when the release has it, and `a!c?` when
 # there is no command c either.
+# With the word demo only those above the line "Beyond the demo".
 # DEB_HOST_ARCH=arm64 asks for what another machine needs to compile for that one: its libraries, a compiler, an emulator.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 
-mapfile -t wanted < <(sed -e 's/#.*//' -e 's/[[:space:]]//g' -e '/^$/d' "$root/packages.txt")
+last='$'
+[ "${1:-}" != demo ] || last='/Beyond the demo/'
+mapfile -t wanted < <(sed -n "1,${last}p" "$root/packages.txt" | sed -e 's/#.*//' -e 's/[[:space:]]//g' -e '/^$/d')
 if [ "${DEB_HOST_ARCH:-}" = arm64 ]; then
   # Libraries of that machine's, or those for all; tools as they are.
   mapfile -t wanted < <(printf '%s\n' "${wanted[@]}" | sed -E 's/(^|\|)((lib|zlib|coinor-lib)[^|?]*)/\1\2:arm64|\2/g')
@@ -18,7 +21,13 @@ for i in "${!wanted[@]}"; do
   if command -v "${command%\?}" >/dev/null; then unset "wanted[i]"; else wanted[i]=${wanted[i]%%!*}?; fi
 done
 mapfile -t names < <(printf '%s\n' "${wanted[@]}" | tr -d '?' | tr '|' '\n')
-installed=$(dpkg-query -W -f '${Package} ${Status}\n' "${names[@]}" 2>/dev/null | sed -n 's/ install ok installed$//p' || true)
+installed=$(dpkg-query -W -f '${Package}:${Architecture} ${Status}\n' "${names[@]}" 2>/dev/null | sed -n 's/ install ok installed$//p' || true)
+if [ "${DEB_HOST_ARCH:-}" = arm64 ]; then
+  # A library of this machine's is none of that one's.
+  installed=$(sed -E '/^(lib|zlib|coinor-lib).*:/{/:(arm64|all)$/!d}; /:arm64$/!s/:.*//' <<<"$installed")
+else
+  installed=$(sed 's/:.*//' <<<"$installed")
+fi
 required=()
 optional=()
 for entry in "${wanted[@]}"; do

@@ -27,7 +27,7 @@ command -v sbatch >/dev/null || fail "no command sbatch here: this is for a mach
 
 # CANOPEER names another program, one with planners of your own for instance.
 program=${CANOPEER:-$here/../build/release/bin/canopeer}
-[ -x "$program" ] || { [ -z "${CANOPEER:-}" ] && program=$(command -v canopeer); } || fail "no program canopeer: build it (./demo.sh), install it, or set CANOPEER"
+[ -x "$program" ] || { [ -z "${CANOPEER:-}" ] && program=$(command -v canopeer); } || fail "no program canopeer: build it (scripts/build.sh release canopeer), install it, or set CANOPEER"
 program=$(realpath "$program")
 
 # What is wrong with the arguments is said now, not by every task in an hour.

@@ -185,6 +185,9 @@ struct RobotCheckArguments {
   int states = 10000;
 };
 
+/// What to do when something is left out of this build, as much is where ./demo.sh made it.
+inline constexpr const char* kWholeBuild = "scripts/build.sh release builds all of it";
+
 // The commands. Each ends by returning, or by throwing Stop.
 void run(const RunArguments& arguments);
 void bench(const BenchArguments& arguments);

@@ -91,8 +91,13 @@ void doctor(const DoctorArguments& arguments) {
                         ? "not built in: that takes Node 18 (Debian: npm) and the npm registry"
                         : "built in");
   line("ROS 2", registries.sites.one_line("ros2").empty()
-                    ? "not built in: that takes libfastdds-dev (Debian 12: libfastrtps-dev)"
+                    ? "not built in: " + std::string(kWholeBuild)
                     : "built in");
+#ifdef CANOPEER_CAMPAIGNS
+  line("bench, bound", "built in");
+#else
+  line("bench, bound", "not built in: " + std::string(kWholeBuild));
+#endif
   line("files", shipped_data().string());
   line("missions", joined(shipped_missions()));
   line("compute table", own_table_text());

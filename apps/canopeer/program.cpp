@@ -38,6 +38,14 @@ void complete(const CLI::App& app, const RunRegistries& registries,
   for (const std::string& line : completions(app, names, words)) std::printf("%s\n", line.c_str());
 }
 
+/// A command that is left out of this build says so.
+[[maybe_unused]] void add_left_out(CLI::App& app, const std::string& name) {
+  CLI::App* command = app.add_subcommand(name, "Not in this build: " + std::string(kWholeBuild));
+  command->allow_extras();
+  command->callback(
+      [name] { stop_with(kBadInput, {name + " is not in this build: " + kWholeBuild}); });
+}
+
 /// A program started with one of them closed would take its first file for it. Whole lines go out
 /// at once, so that they stand before what standard error says later.
 void open_standard_streams() {
@@ -59,18 +67,23 @@ int parse_and_run(int argc, char** argv, const RunRegistries& registries) {
   ImportArguments import_arguments;
   run_arguments.mission.registries = &registries;
   add_run(app, run_arguments, registries);
-  BenchArguments bench_arguments;
-  BoundArguments bound_arguments;
   CalibrateArguments calibrate_arguments;
-  bench_arguments.registries = &registries;
-  bound_arguments.mission.registries = &registries;
   calibrate_arguments.mission.registries = &registries;
   scene_arguments.mission.registries = &registries;
+#ifdef CANOPEER_CAMPAIGNS
+  BenchArguments bench_arguments;
   SuiteArguments suite_arguments;
-  suite_arguments.registries = &registries;
   VerifyArguments verify_arguments;
+  BoundArguments bound_arguments;
+  bench_arguments.registries = &registries;
+  suite_arguments.registries = &registries;
+  bound_arguments.mission.registries = &registries;
   add_bench(app, bench_arguments, suite_arguments, verify_arguments);
   add_bound(app, bound_arguments);
+#else
+  add_left_out(app, "bench");
+  add_left_out(app, "bound");
+#endif
   add_calibrate(app, calibrate_arguments);
   add_report(app, report_directory);
   add_view(app, view_arguments);
@@ -91,6 +104,7 @@ int parse_and_run(int argc, char** argv, const RunRegistries& registries) {
   add_ros2(app, ros2_arguments, registries);
   std::vector<std::string> words(ros_arguments.rest.rbegin(), ros_arguments.rest.rend() - 1);
 #else
+  add_left_out(app, "ros2");
   std::vector<std::string> words(std::make_reverse_iterator(argv + argc),
                                  std::make_reverse_iterator(argv + 1));
 #endif

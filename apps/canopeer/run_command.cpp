@@ -41,8 +41,7 @@ void check_site(const RunArguments& arguments) {
   }
   const auto& sites = arguments.mission.registries->sites;
   if (arguments.site == kRos2 && sites.one_line(kRos2).empty()) {
-    stop_with(kBadInput, {"this program was built without ROS 2; install libfastdds-dev (Debian "
-                          "12: libfastrtps-dev) and build it anew"});
+    stop_with(kBadInput, {"ROS 2 is not in this build: " + std::string(kWholeBuild)});
   }
 }
 

@@ -74,11 +74,11 @@ TEST(Frustum, LosesNoPointThatACameraOfTheCellShows) {
   for (int i = 0; i < 20000; ++i) {
     const JointBox box = random_box(test_robot(), i % 2 == 0 ? 0.05 : 0.4, rng);
     const CameraCell cell = camera_cell(test_robot(), box);
-    const FruitBall ball{cell.T.translation() + Vec3(rng.normal(), rng.normal(), rng.normal()),
+    const FruitBall ball{cell.T.translation() + Vec3{rng.normal(), rng.normal(), rng.normal()},
                          0.04};
     const Pose T = test_robot().T_base_camera(random_within(box, rng));
     const Vec3 point =
-        ball.centre + 0.039 * Vec3(rng.normal(), rng.normal(), rng.normal()).normalized();
+        ball.centre + 0.039 * Vec3{rng.normal(), rng.normal(), rng.normal()}.normalized();
     const bool may = frustum.may_hold(ball, cell);
     dropped += !may;
     if (!shows(camera, T, point, 1.6)) continue;

@@ -61,7 +61,7 @@ inline void make_toy(Toy& toy, std::uint64_t seed, int segments, int views, int 
     auto& shown = toy.problem.segments.emplace_back();
     auto& places = toy.motions.points.emplace_back();
     for (int v = 0; v < views; ++v) {
-      places.emplace_back(rng.uniform(0.0, 2.0), rng.uniform(0.0, 2.0));
+      places.push_back({rng.uniform(0.0, 2.0), rng.uniform(0.0, 2.0)});
       std::vector<std::uint32_t> patches;
       const double share = v == 0 ? 0.05 : 0.3;
       for (std::uint32_t patch = 0; patch < fruit_of.size(); ++patch) {

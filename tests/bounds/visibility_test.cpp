@@ -100,8 +100,8 @@ TEST(NumberedView, SeesThePatchesThatRaysMeet) {
   std::size_t together = 0;
   for (int i = 0; i < 12; ++i) {
     const FruitTruth& fruit = world().fruits[rng.index(world().fruits.size())];
-    const Vec3 eye(rng.uniform(-0.3, 0.3), fruit.centre.y() + rng.uniform(-0.6, 0.6),
-                   fruit.centre.z() + rng.uniform(-0.3, 0.3));
+    const Vec3 eye{rng.uniform(-0.3, 0.3), fruit.centre.y() + rng.uniform(-0.6, 0.6),
+                   fruit.centre.z() + rng.uniform(-0.3, 0.3)};
     const Pose pose = look_at(eye, fruit.centre, rng.uniform(-3.0, 3.0));
     const std::set<std::uint32_t> expected = patches_by_rays(renderer, camera, pose);
     std::vector<std::uint32_t> seen;

@@ -51,7 +51,7 @@ TEST(Matching, OptimalAgreesWithEveryPermutation) {
     std::vector<Vec3> centres(1 + rng.index(4));
     std::vector<FruitTruth> truth(1 + rng.index(4));
     const auto somewhere = [&] {
-      return Vec3(rng.uniform(0.0, 0.1), rng.uniform(0.0, 0.1), rng.uniform(0.0, 0.05));
+      return Vec3{rng.uniform(0.0, 0.1), rng.uniform(0.0, 0.1), rng.uniform(0.0, 0.05)};
     };
     for (Vec3& c : centres) c = somewhere();
     for (FruitTruth& t : truth) t = fruit_at(somewhere());

@@ -15,7 +15,8 @@ using Point = Eigen::Vector3f;
 std::vector<Point> random_points(Rng& rng, int count) {
   std::vector<Point> points;
   for (int i = 0; i < count; ++i) {
-    points.emplace_back(rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1));
+    points.push_back(
+        Vec3{rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1)}.cast<float>());
   }
   return points;
 }

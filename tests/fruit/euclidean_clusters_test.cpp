@@ -13,7 +13,7 @@ TEST(EuclideanClusters, AgreeWithComparingAllPairs) {
     std::vector<SurfacePoint> points;
     for (int i = 0; i < 200; ++i) {
       points.push_back(
-          {0.1 * Vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)), Vec3::UnitZ()});
+          {0.1 * Vec3{rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)}, Vec3::UnitZ()});
     }
     const double tolerance = rng.uniform(0.01, 0.04);
     std::vector<int> label(points.size());

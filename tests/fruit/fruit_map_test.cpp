@@ -50,8 +50,8 @@ TEST(FruitMap, PlacesAFruitSeenFromOneSideWithinOneAndAHalfCentimetres) {
   Rng rng(5);
   for (int i = 0; i < 8; ++i) {
     const double radius = rng.uniform(0.026, 0.040);
-    const Vec3 semi_axes(radius, radius * rng.uniform(0.85, 1.0), rng.uniform(0.030, 0.046));
-    const Vec3 centre = kFruit + Vec3(rng.uniform(-0.1, 0.1), rng.uniform(-0.08, 0.08), 0.0);
+    const Vec3 semi_axes{radius, radius * rng.uniform(0.85, 1.0), rng.uniform(0.030, 0.046)};
+    const Vec3 centre = kFruit + Vec3{rng.uniform(-0.1, 0.1), rng.uniform(-0.08, 0.08), 0.0};
     const auto fruits = map_of({pepper(centre, semi_axes)}, {kFront});
     ASSERT_EQ(fruits.size(), 1U) << "fruit " << i;
     EXPECT_LT((fruits[0].centre - centre).norm(), 0.015) << "fruit " << i;

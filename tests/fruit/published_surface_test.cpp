@@ -30,7 +30,7 @@ TEST(NeighbourDistances, AreThoseToTheNearestOfAllPointsOnASmoothSurface) {
   for (int v = 0; v < kSide; ++v) {
     for (int u = 0; u < kSide; ++u) {
       if (rng.uniform(0.0, 1.0) < 0.2) continue;  // holes
-      const Vec3 jitter(rng.normal(0, 2e-4), rng.normal(0, 2e-4), rng.normal(0, 2e-4));
+      const Vec3 jitter{rng.normal(0, 2e-4), rng.normal(0, 2e-4), rng.normal(0, 2e-4)};
       points.at(u, v) = Vec3(0.002 * u, 0.002 * v, 0.5 + 0.001 * u) + jitter;
       there.at(u, v) = 1;
       pixels.push_back(v * kSide + u);

@@ -20,7 +20,7 @@ Superellipsoid pepper(Rng& rng) {
   body.e2 = rng.uniform(0.5, 0.85);
   body.T_world_body.linear() =
       rotation_of({rng.uniform(-0.15, 0.15), rng.uniform(-0.15, 0.15), rng.uniform(-1.5, 1.5)});
-  body.T_world_body.translation() = Vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(0, 2));
+  body.T_world_body.translation() = Vec3{rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(0, 2)};
   return body;
 }
 
@@ -63,8 +63,8 @@ TEST(SuperellipsoidCost, DerivativesAgreeWithDifferences) {
     const auto points = seen_part(body, kTowards, -1.0, 0.004, rng, 150);
     const SuperellipsoidCost cost(points, {}, body.centre(), body.T_world_body.linear());
     FitParameters p = parameters_of(pepper(rng));
-    p.segment<3>(5) = body.centre() + 0.005 * Vec3(rng.normal(), rng.normal(), rng.normal());
-    p.tail<3>() = 0.3 * Vec3(rng.normal(), rng.normal(), rng.normal());
+    p.segment<3>(5) = body.centre() + 0.005 * Vec3{rng.normal(), rng.normal(), rng.normal()};
+    p.tail<3>() = 0.3 * Vec3{rng.normal(), rng.normal(), rng.normal()};
     const int n = cost.residuals();
     Eigen::VectorXd r(n), high(n), low(n);
     Eigen::Matrix<double, Eigen::Dynamic, kFitParameters, Eigen::RowMajor> j(n, kFitParameters);
@@ -235,7 +235,7 @@ TEST(FitSuperellipsoid, FollowsRigidMotions) {
     const auto points = seen_part(truth, kTowards, -1.0, 0.0005, rng);
     Pose motion = Pose::Identity();
     motion.linear() = rotation_of({rng.uniform(-3, 3), rng.uniform(-1.5, 1.5), rng.uniform(-3, 3)});
-    motion.translation() = Vec3(rng.uniform(-5, 5), rng.uniform(-5, 5), rng.uniform(-5, 5));
+    motion.translation() = Vec3{rng.uniform(-5, 5), rng.uniform(-5, 5), rng.uniform(-5, 5)};
     std::vector<SurfacePoint> moved;
     for (const SurfacePoint& s : points) {
       moved.push_back({motion * s.point, motion.linear() * s.normal});

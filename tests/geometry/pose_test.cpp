@@ -39,7 +39,7 @@ TEST(Transformed, BoxHoldsAllItsMappedPoints) {
   const Pose T = look_at(random_point(rng), random_point(rng), 0.3);
   const Box mapped = transformed(box, T);
   for (int i = 0; i < 1000; ++i) {
-    const Vec3 p(rng.uniform(-1, 1), rng.uniform(0, 3), rng.uniform(2, 4));
+    const Vec3 p{rng.uniform(-1, 1), rng.uniform(0, 3), rng.uniform(2, 4)};
     EXPECT_LT(mapped.exteriorDistance(T * p), 1e-12);
   }
 }

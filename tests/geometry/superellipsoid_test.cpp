@@ -18,7 +18,7 @@ Superellipsoid random_body(Rng& rng) {
   body.T_world_body.linear() =
       rotation_of({rng.uniform(-3, 3), rng.uniform(-1.5, 1.5), rng.uniform(-3, 3)});
   body.T_world_body.translation() =
-      Vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
+      Vec3{rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)};
   return body;
 }
 
@@ -34,7 +34,7 @@ TEST(Superellipsoid, GaugeIsThePowerOfTheDefinition) {
   Rng rng(1);
   for (int i = 0; i < 500; ++i) {
     const Superellipsoid body = random_body(rng);
-    const Vec3 p = body.centre() + 0.1 * Vec3(rng.normal(), rng.normal(), rng.normal());
+    const Vec3 p = body.centre() + 0.1 * Vec3{rng.normal(), rng.normal(), rng.normal()};
     EXPECT_NEAR(body.gauge(p), std::pow(definition(body, p), body.e1 / 2), 1e-9 * body.gauge(p));
   }
 }
@@ -43,7 +43,7 @@ TEST(Superellipsoid, RadialDistanceReachesTheSurfaceAlongTheRay) {
   Rng rng(2);
   for (int i = 0; i < 500; ++i) {
     const Superellipsoid body = random_body(rng);
-    const Vec3 direction = Vec3(rng.normal(), rng.normal(), rng.normal()).normalized();
+    const Vec3 direction = Vec3{rng.normal(), rng.normal(), rng.normal()}.normalized();
     const Vec3 p = body.centre() + rng.uniform(0.005, 0.2) * direction;
     const Vec3 on_surface = p - body.radial_distance(p) * direction;
     EXPECT_NEAR(definition(body, on_surface), 1.0, 1e-6);
@@ -58,8 +58,8 @@ TEST(Superellipsoid, VolumeAgreesWithMonteCarlo) {
     constexpr int kSamples = 100000;
     int inside = 0;
     for (int k = 0; k < kSamples; ++k) {
-      const Vec3 p = Vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1))
-                         .cwiseProduct(body.semi_axes_m);
+      const Vec3 p = Vec3{rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)}.cwiseProduct(
+          body.semi_axes_m);
       inside += definition(body, p) < 1.0;
     }
     const double box = 8.0 * body.semi_axes_m.prod();
@@ -96,7 +96,7 @@ TEST(Superellipsoid, SamplesLieOnTheSurfaceWithNormalsSquareToIt) {
 TEST(Superellipsoid, AnglesAndRotationsGoBackAndForth) {
   Rng rng(5);
   for (int i = 0; i < 100; ++i) {
-    const Vec3 angles(rng.uniform(-3.1, 3.1), rng.uniform(-1.5, 1.5), rng.uniform(-3.1, 3.1));
+    const Vec3 angles{rng.uniform(-3.1, 3.1), rng.uniform(-1.5, 1.5), rng.uniform(-3.1, 3.1)};
     EXPECT_LT((roll_pitch_yaw_of(rotation_of(angles)) - angles).norm(), 1e-9);
   }
 }

@@ -18,8 +18,8 @@ std::tuple<int, int, int> key(const VoxelIndex& v) { return {v.x(), v.y(), v.z()
 TEST(VoxelRay, VisitsEveryCellTheSegmentCrosses) {
   Rng rng(11);
   for (int i = 0; i < 500; ++i) {
-    const Vec3 from(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
-    const Vec3 to(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
+    const Vec3 from{rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)};
+    const Vec3 to{rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)};
     std::set<std::tuple<int, int, int>> visited;
     std::vector<VoxelIndex> order;
     walk_voxels(from, to, kResolution, [&](const VoxelIndex& v) {

@@ -36,7 +36,7 @@ TEST(ConvexHull, HoldsAllItsPoints) {
     Rng rng(seed, "hull");
     std::vector<Vec3> points;
     for (int i = 0; i < 200; ++i) {
-      points.emplace_back(rng.normal(0.0, 0.03), rng.normal(0.0, 0.05), rng.normal(2.0, 0.02));
+      points.push_back({rng.normal(0.0, 0.03), rng.normal(0.0, 0.05), rng.normal(2.0, 0.02)});
     }
     const auto hull = convex_hull(points);
     ASSERT_TRUE(hull.has_value());

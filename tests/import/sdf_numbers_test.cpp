@@ -23,8 +23,8 @@ std::string error_of(const std::string& xml) {
 TEST(SdfNumbers, APoseTurnsAboutTheFixedAxesXFirst) {
   Rng rng(1, "poses");
   for (int round = 0; round < 1000; ++round) {
-    const Vec3 p(rng.uniform(-9, 9), rng.uniform(-9, 9), rng.uniform(-9, 9));
-    const Vec3 a(rng.uniform(-9, 9), rng.uniform(-9, 9), rng.uniform(-9, 9));
+    const Vec3 p{rng.uniform(-9, 9), rng.uniform(-9, 9), rng.uniform(-9, 9)};
+    const Vec3 a{rng.uniform(-9, 9), rng.uniform(-9, 9), rng.uniform(-9, 9)};
     std::string text;
     for (const double v : {p.x(), p.y(), p.z(), a.x(), a.y(), a.z()}) {
       text += " \t\n" + std::to_string(v);

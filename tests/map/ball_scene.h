@@ -26,7 +26,7 @@ struct BallScene {
     Rng rng(seed, "ball scene");
     BallScene scene;
     for (int i = 0; i < count; ++i) {
-      const Vec3 centre(rng.uniform(0.6, 1.1), rng.uniform(-1.0, 1.0), rng.uniform(-0.6, 0.6));
+      const Vec3 centre{rng.uniform(0.6, 1.1), rng.uniform(-1.0, 1.0), rng.uniform(-0.6, 0.6)};
       scene.balls.push_back({centre, rng.uniform(0.02, 0.06), i % 10 == 0});
     }
     return scene;
@@ -69,8 +69,8 @@ struct BallScene {
 
   /// A camera in the aisle, somewhere around (−0.2, 0, 0), that looks at the row.
   static Pose random_camera(Rng& rng) {
-    const Vec3 position(rng.uniform(-0.3, 0.1), rng.uniform(-0.6, 0.6), rng.uniform(-0.4, 0.4));
-    const Vec3 target(0.85, rng.uniform(-0.5, 0.5), rng.uniform(-0.3, 0.3));
+    const Vec3 position{rng.uniform(-0.3, 0.1), rng.uniform(-0.6, 0.6), rng.uniform(-0.4, 0.4)};
+    const Vec3 target{0.85, rng.uniform(-0.5, 0.5), rng.uniform(-0.3, 0.3)};
     return look_at(position, target, rng.uniform(-0.5, 0.5));
   }
 

@@ -76,13 +76,13 @@ TEST(CloudFusion, IsOctoMapVoxelByVoxelOnRandomScenes) {
     VoxelMap map = empty_map(0.05);
     octomap::OcTree tree(0.05);
     for (int scan = 0; scan < 3; ++scan) {
-      const Eigen::Vector3f origin(static_cast<float>(rng.uniform(-0.4, 0.4)),
+      const Eigen::Vector3f origin{static_cast<float>(rng.uniform(-0.4, 0.4)),
                                    static_cast<float>(rng.uniform(-0.4, 0.4)),
-                                   static_cast<float>(rng.uniform(-0.4, 0.4)));
+                                   static_cast<float>(rng.uniform(-0.4, 0.4))};
       std::vector<Eigen::Vector3f> points;
       octomap::Pointcloud cloud;
       for (int i = 0; i < 2000; ++i) {
-        const Vec3 p(rng.uniform(-2, 2), rng.uniform(-2, 2), rng.uniform(-2, 2));
+        const Vec3 p{rng.uniform(-2, 2), rng.uniform(-2, 2), rng.uniform(-2, 2)};
         points.emplace_back(p.cast<float>());
         cloud.push_back(points.back().x(), points.back().y(), points.back().z());
       }

@@ -20,7 +20,7 @@ double distance_to_cube(const Vec3& p, const VoxelIndex& voxel, double resolutio
 VoxelMap random_map(Rng& rng, int count) {
   VoxelMap map;
   for (int i = 0; i < count; ++i) {
-    const Vec3 p(rng.uniform(-0.6, 1.1), rng.uniform(-0.9, 0.8), rng.uniform(-0.7, 0.6));
+    const Vec3 p{rng.uniform(-0.6, 1.1), rng.uniform(-0.9, 0.8), rng.uniform(-0.7, 0.6)};
     map.set_occupancy_log_odds(voxel_at(p, 0.01), 1.0);
   }
   return map;
@@ -37,9 +37,9 @@ TEST(DistanceField, IsALowerBoundWithinAVoxelDiagonal) {
   const double diagonal = 0.01 * std::sqrt(3.0);
   int near = 0;
   for (int i = 0; i < 20000; ++i) {
-    const Vec3 p(rng.uniform(kWorld.min().x(), kWorld.max().x()),
+    const Vec3 p{rng.uniform(kWorld.min().x(), kWorld.max().x()),
                  rng.uniform(kWorld.min().y(), kWorld.max().y()),
-                 rng.uniform(kWorld.min().z(), kWorld.max().z()));
+                 rng.uniform(kWorld.min().z(), kWorld.max().z())};
     double truth = 0.15;
     for (const VoxelIndex& v : occupied) truth = std::min(truth, distance_to_cube(p, v, 0.01));
     const double bound = static_cast<double>(field.distance(p));
@@ -63,7 +63,7 @@ TEST(DistanceField, UpdatedIsTheSameAsRebuilt) {
     updated.update(map, fuse(map, view.frame, view.roi).changed);
     rebuilt.rebuild(map);
     for (int i = 0; i < 50000; ++i) {
-      const Vec3 p(rng.uniform(0.1, 1.2), rng.uniform(-0.9, 0.9), rng.uniform(-0.6, 0.6));
+      const Vec3 p{rng.uniform(0.1, 1.2), rng.uniform(-0.9, 0.9), rng.uniform(-0.6, 0.6)};
       ASSERT_EQ(updated.distance(p), rebuilt.distance(p)) << p.transpose();
     }
   }
@@ -105,7 +105,7 @@ TEST(DistanceField, MeasuresToUnknownOrRoiVoxelsWhenAsked) {
     rebuilt.rebuild(map);
     int positive = 0;
     for (int i = 0; i < 800; ++i) {
-      const Vec3 p(rng.uniform(0.3, 0.7), rng.uniform(-0.2, 0.2), rng.uniform(-0.15, 0.15));
+      const Vec3 p{rng.uniform(0.3, 0.7), rng.uniform(-0.2, 0.2), rng.uniform(-0.15, 0.15)};
       const VoxelIndex at = voxel_at(p, resolution);
       double unknown = 0.1, roi = 0.1;
       for (int n = 0; n < 13 * 13 * 13; ++n) {

@@ -35,7 +35,7 @@ TEST(FusionLaws, FramesOfDisjointViewsCommute) {
     const auto frame = [&](double side) {
       RgbdFrame f;
       f.intrinsics = CameraIntrinsics::from_fov(80, 60, 1.2);
-      const Vec3 from(0.3 * side, rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1));
+      const Vec3 from{0.3 * side, rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1)};
       f.T_world_camera = look_at(from, from + Vec3(side, 0, 0));
       f.depth = DepthImage(80, 60);
       for (float& d : f.depth.pixels()) d = static_cast<float>(rng.uniform(0.1, 1.5));

@@ -237,7 +237,7 @@ TEST(SimdKernels, CubesAreClassifiedAsTheirVoxelsAre) {
     const CameraIntrinsics& k = view.frame.intrinsics;
     std::int64_t border = 0, compared = 0;
     for (int i = 0; i < 200000; ++i) {
-      const Vec3 p(rng.uniform(-0.5, 1.5), rng.uniform(-1.5, 1.5), rng.uniform(-1.2, 1.2));
+      const Vec3 p{rng.uniform(-0.5, 1.5), rng.uniform(-1.5, 1.5), rng.uniform(-1.2, 1.2)};
       const VoxelIndex voxel = voxel_at(p, 0.01);
       if (map.occupancy(voxel) == Occupancy::occupied) continue;
       const Vec3 c = T_camera_world * voxel_centre(voxel, 0.01);

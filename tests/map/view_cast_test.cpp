@@ -59,7 +59,7 @@ TEST(ViewCast, FindsTheSameWithAnyInstructionSet) {
     const Vec3 from = BallScene::random_camera(rng).translation();
     std::vector<Vec3> ends(1 + rng.index(40));
     for (Vec3& end : ends) {
-      end = from + Vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
+      end = from + Vec3{rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)};
     }
     if (i % 3 == 0) ends.front() = from + Vec3(0.001, 0.0, 0.0);  // goes alone
     const Box world(from - Vec3::Ones(), from + Vec3::Ones());
@@ -96,7 +96,8 @@ TEST(ViewCast, EndsARayAfterItsShareOfUnknownSpace) {
       int crossed = 0, unknown = 0;
       walk_voxels(T_world_camera.translation(), to, map.resolution_m(),
                   [&](const VoxelIndex&) { return ++crossed > 0; });
-      const double limit = std::max(1.0, std::ceil(crossed * fan.max_unknown_m / end.norm()));
+      const double length_m = (to - T_world_camera.translation()).norm();
+      const double limit = std::max(1.0, std::ceil(crossed * fan.max_unknown_m / length_m));
       walk_voxels(T_world_camera.translation(), to, map.resolution_m(), [&](const VoxelIndex& v) {
         if (map.occupancy(v) == Occupancy::occupied) return false;
         if (map.occupancy(v) == Occupancy::free) return true;
@@ -128,8 +129,8 @@ TEST(ViewCast, LeapsOverClearBlocksOntoTheVoxelsAPlainWalkerFinds) {
     const auto lattice = [&] { return 0.01 * static_cast<double>(rng.index(20)) - 0.1; };
     const bool tied = seed % 2 == 0;
     const Vec3 from = tied ? Vec3(lattice(), lattice(), lattice())
-                           : Vec3(rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1), 0.0123);
-    Pose T_world_camera = look_at(from, from + Vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), 1.0));
+                           : Vec3{rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1), 0.0123};
+    Pose T_world_camera = look_at(from, from + Vec3{rng.uniform(-1, 1), rng.uniform(-1, 1), 1.0});
     if (tied) T_world_camera.linear() = Eigen::Matrix3d::Identity();
     ViewFan fan;
     fan.columns = fan.rows = 5;

@@ -21,7 +21,7 @@ InspectionProblem random_problem(Rng& rng, Objective objective, int views, int t
   InspectionProblem problem;
   problem.objective = objective;
   std::vector<std::pair<double, double>> places;
-  for (int i = 0; i <= views; ++i) places.emplace_back(rng.uniform(), rng.uniform());
+  for (int i = 0; i <= views; ++i) places.push_back({rng.uniform(), rng.uniform()});
   const auto time_s = [&](std::size_t a, std::size_t b) {
     return 0.2 + std::hypot(places[a].first - places[b].first, places[a].second - places[b].second);
   };

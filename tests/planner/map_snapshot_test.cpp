@@ -14,9 +14,9 @@ TEST(MapSnapshot, StaysAsItWasWhileTheNextFramesAreFused) {
   const Box& region = run.world.frame.sampling_region_world;
   std::vector<std::pair<Vec3, float>> distances;
   for (int i = 0; i < 500; ++i) {
-    const Vec3 p(rng.uniform(region.min().x(), region.max().x()),
+    const Vec3 p{rng.uniform(region.min().x(), region.max().x()),
                  rng.uniform(region.min().y(), region.max().y()),
-                 rng.uniform(region.min().z(), region.max().z()));
+                 rng.uniform(region.min().z(), region.max().z())};
     distances.emplace_back(p, before.field.distance(p));
   }
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(run.take_view());

@@ -56,8 +56,8 @@ TEST(RvpPlanner, GainOfARayIsTheWeightedShareOfItsUnknownVoxels) {
   for (int i = 0; i < 200; ++i) {
     const Box& region = run.world.frame.sampling_region_world;
     const Vec3 from(0.0, rng.uniform(region.min().y(), region.max().y()), 1.0);
-    const Vec3 to(region.center().x(), rng.uniform(region.min().y(), region.max().y()),
-                  rng.uniform(region.min().z(), region.max().z()));
+    const Vec3 to{region.center().x(), rng.uniform(region.min().y(), region.max().y()),
+                  rng.uniform(region.min().z(), region.max().z())};
     int voxels = 0;
     int unknown = 0;
     bool blocked = false;

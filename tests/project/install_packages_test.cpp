@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 /// that write down what they are asked for.
 class Machine {
  public:
-  /// Lists of packages, each name between blanks.
+  /// Lists of packages, each name between blanks; installed ones of another architecture, or of
+  /// all, with it.
   Machine(const std::string& packages_file, std::string installed, std::string in_release)
       : installed_(std::move(installed)), in_release_(std::move(in_release)) {
     std::string name =
@@ -28,8 +29,9 @@ class Machine {
                   root_ / "scripts/install_packages.sh");
     EXPECT_TRUE(write_file(root_ / "packages.txt", packages_file).has_value());
     add_tool("dpkg-query",
-             "for name; do case \" $INSTALLED \" in *\" $name \"*) echo \"$name install ok "
-             "installed\";; esac; done");
+             "for name; do for arch in '' :arm64 :all; do case \" $INSTALLED \" in *\" "
+             "${name%:*}$arch \"*) echo \"${name%:*}${arch:-:amd64} install ok installed\";; esac; "
+             "done; done");
     add_tool(
         "apt-cache",
         "echo policy >>asked; case \" $IN_RELEASE \" in *\" $2 \"*) printf '%s:\\n  Installed: "
@@ -45,13 +47,15 @@ class Machine {
     fs::remove_all(root_, code);
   }
 
-  /// What the script asked apt for, and its exit status. `arch`: of the machine to compile for.
-  std::string run(bool apt_fails = false, const std::string& arch = "") {
+  /// What the script asked apt for, and its exit status. `arch`: of the machine to compile for;
+  /// `word`: the script's argument.
+  std::string run(bool apt_fails = false, const std::string& arch = "",
+                  const std::string& word = "") {
     fs::remove(root_ / "asked");
     const std::string command =
         "cd '" + root_.string() + "' && PATH=\"$PWD/tools:$PATH\" DEB_HOST_ARCH=" + arch +
         " FAILS=" + (apt_fails ? "1" : "") + " INSTALLED='" + installed_ + "' IN_RELEASE='" +
-        in_release_ + "' bash scripts/install_packages.sh >said 2>&1";
+        in_release_ + "' bash scripts/install_packages.sh " + word + " >said 2>&1";
     const int status = std::system(command.c_str());
     std::string asked = read_file(root_ / "asked").value_or("");
     for (auto at = asked.find("policy\n"); at != std::string::npos; at = asked.find("policy\n")) {
@@ -119,6 +123,25 @@ TEST(InstallPackages, ForAnotherMachineLibrariesAreThatMachines) {
   EXPECT_EQ(machine.run(false, "arm64"),
             "update -qq\ninstall g++ libold-dev:arm64 libforall-dev g++-aarch64-linux-gnu "
             "qemu-user\n");
+}
+
+TEST(InstallPackages, ALibraryOfThisMachineIsNoneOfAnother) {
+  const std::string packages = "g++\nliba-dev\nlibb-dev\nlibforall-dev\n";
+  Machine machine(packages,
+                  "g++ liba-dev libb-dev libb-dev:arm64 libforall-dev:all qemu-user "
+                  "g++-aarch64-linux-gnu",
+                  "liba-dev:arm64");
+  EXPECT_EQ(machine.run(false, "arm64"), "update -qq\ninstall liba-dev:arm64\n");
+  EXPECT_EQ(machine.run(), "");
+}
+
+TEST(InstallPackages, TheDemoTakesNoMoreThanItNeeds) {
+  const std::string packages = "g++\nliba-dev\n# ---- Beyond the demo ----\nlibb-dev\noracle?\n";
+  const std::string release = "g++ liba-dev libb-dev oracle";
+  EXPECT_EQ(Machine(packages, "", release).run(false, "", "demo"),
+            "update -qq\ninstall g++ liba-dev\n");
+  EXPECT_EQ(Machine(packages, "g++ liba-dev", release).run(false, "", "release"),
+            "update -qq\ninstall libb-dev oracle\n");
 }
 
 }  // namespace

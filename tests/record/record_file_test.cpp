@@ -35,12 +35,12 @@ ViewEvent random_view(Rng& rng, int number) {
   view.segment = number / 3;
   view.t_s = number + rng.uniform();
   for (int joint = 0; joint < 6; ++joint) view.q.push_back(rng.normal());
-  view.T_world_camera = look_at(Vec3(rng.normal(), rng.normal(), 1.0), Vec3(5.0, 5.0, 1.5));
+  view.T_world_camera = look_at(Vec3{rng.normal(), rng.normal(), 1.0}, Vec3(5.0, 5.0, 1.5));
   view.target_kind = "roi";
   if (rng.chance(0.5)) view.predicted_gain = rng.uniform(0.0, 1e4) / 3.0;
   view.realised_gain = static_cast<std::int64_t>(rng.index(100000));
   for (std::uint64_t i = rng.index(4); i > 0; --i) {
-    view.fruits.push_back({static_cast<int>(i), Vec3(rng.normal(), rng.normal(), rng.normal()),
+    view.fruits.push_back({static_cast<int>(i), Vec3{rng.normal(), rng.normal(), rng.normal()},
                            rng.uniform(10.0, 300.0)});
   }
   return view;

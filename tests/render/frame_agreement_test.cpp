@@ -26,8 +26,8 @@ class Journey {
     double y = -1.0, t = 0.0;
     for (int i = 0; i < views; ++i) {
       if (i % 6 == 5) y += 0.4;  // the next plants
-      const Vec3 eye(rng.uniform(0.05, 0.3), y + rng.uniform(-0.2, 0.2), rng.uniform(0.8, 1.2));
-      const Vec3 target(0.75, y + rng.uniform(-0.1, 0.1), 1.0 + rng.uniform(-0.1, 0.1));
+      const Vec3 eye{rng.uniform(0.05, 0.3), y + rng.uniform(-0.2, 0.2), rng.uniform(0.8, 1.2)};
+      const Vec3 target{0.75, y + rng.uniform(-0.1, 0.1), 1.0 + rng.uniform(-0.1, 0.1)};
       const Pose T = look_at(eye, target, rng.uniform(-0.4, 0.4));
       if (!stops_.empty()) {
         const double way = (T.translation() - stops_.back().T.translation()).norm();

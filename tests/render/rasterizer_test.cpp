@@ -113,8 +113,8 @@ TEST(Rasterizer, SeesWhatRaysMeetFromAmongTheLeaves) {
   Rng rng(5, "poses");
   const Box plants = scene.bounds(true);
   for (int i = 0; i < 4; ++i) {
-    const Vec3 eye(rng.uniform(0.4, 0.9), rng.uniform(-1.0, 1.0), rng.uniform(0.3, 1.8));
-    const Vec3 aim(rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0), rng.uniform(0.2, 2.0));
+    const Vec3 eye{rng.uniform(0.4, 0.9), rng.uniform(-1.0, 1.0), rng.uniform(0.3, 1.8)};
+    const Vec3 aim{rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0), rng.uniform(0.2, 2.0)};
     expect_as_embree(scene, camera, look_at(eye, aim, rng.uniform(-3.0, 3.0)));
   }
   EXPECT_LT(plants.min().x(), 0.0);
@@ -163,8 +163,8 @@ TEST(Rasterizer, LeavesNoGapBetweenNeighbours) {
        {std::pair{2, 3}, std::pair{9, 7}, std::pair{40, 300}, std::pair{300, 20}}) {
     const Drawing drawing({shell(2.0, parallels, meridians)});
     for (int i = 0; i < 10; ++i) {
-      const Vec3 eye(rng.uniform(-0.5, 0.5), rng.uniform(-0.5, 0.5), rng.uniform(-0.5, 0.5));
-      const Vec3 aim(rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0));
+      const Vec3 eye{rng.uniform(-0.5, 0.5), rng.uniform(-0.5, 0.5), rng.uniform(-0.5, 0.5)};
+      const Vec3 aim{rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0)};
       const auto pixels = drawing.draw(camera, look_at(eye, aim, rng.uniform(-3.0, 3.0)));
       for (std::size_t p = 0; p < pixels.size(); ++p) {
         ASSERT_NE(pixels[p].body, kNoSurface)

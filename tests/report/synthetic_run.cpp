@@ -61,7 +61,7 @@ std::string truth_csv(const std::vector<FruitTruth>& truth) {
 FruitEstimate estimate_of(const FruitTruth& truth, Rng& rng) {
   FruitEstimate fruit;
   const double error_m = rng.chance(0.12) ? 0.05 : 0.012;
-  fruit.centre = truth.centre + error_m * Vec3(rng.normal(), rng.normal(), rng.normal());
+  fruit.centre = truth.centre + error_m * Vec3{rng.normal(), rng.normal(), rng.normal()};
   fruit.semi_axes_m =
       0.5 * Vec3(truth.diameter_m, truth.diameter_m, truth.length_m) * rng.uniform(0.75, 1.15);
   fruit.roll_pitch_yaw_rad = {rng.normal(0.0, 0.3), rng.normal(0.0, 0.3), rng.uniform(-3.0, 3.0)};
@@ -213,8 +213,8 @@ class SyntheticRun {
     view.predicted_gain = rng_.uniform(100.0, 9000.0);
     view.realised_gain = static_cast<std::int64_t>(*view.predicted_gain * rng_.uniform(0.4, 1.1));
     view.T_world_camera.translation() =
-        Vec3(rng_.uniform(-0.35, 0.3), -1.3 + 0.8 * (segment / 2) + rng_.uniform(-0.5, 0.5),
-             rng_.uniform(0.7, 1.6));
+        Vec3{rng_.uniform(-0.35, 0.3), -1.3 + 0.8 * (segment / 2) + rng_.uniform(-0.5, 0.5),
+             rng_.uniform(0.7, 1.6)};
     view.fused_points = 200'000;
     view.fruits = fruits_at(segment, t_s_ - begin_s);
     view.roi_voxels = static_cast<std::int64_t>(view.fruits.size()) * 190;

@@ -238,10 +238,10 @@ TEST(AnyArm, NumericIsAsGoodAsTheClosedForm) {
   int solved = 0;
   const Box& box = robot.workspace(1);
   for (int trial = 0; trial < 500; ++trial) {
-    const Vec3 position(random.uniform(box.min().x(), box.max().x()),
+    const Vec3 position{random.uniform(box.min().x(), box.max().x()),
                         random.uniform(box.min().y(), box.max().y()),
-                        random.uniform(box.min().z(), box.max().z()));
-    const Vec3 target = position + Vec3(random.normal(), random.normal(), random.normal());
+                        random.uniform(box.min().z(), box.max().z())};
+    const Vec3 target = position + Vec3{random.normal(), random.normal(), random.normal()};
     closed->solve_view(position, target, robot.home("side_1"), a);
     numeric->solve_view(position, target, robot.home("side_1"), b);
     EXPECT_TRUE(!a.empty() || b.empty());  // what the closed form calls out of reach, is

@@ -188,7 +188,7 @@ TEST_F(Collision, ManyObstaclesAreTouchedWhereOneOfThemIs) {
   for (int i = 0; i < 60; ++i) {
     Vec3 low = base;
     for (int k = 0; k < 3; ++k) low[k] += random_.uniform(-1.2, 1.2);
-    const Vec3 size(random_.uniform(0.02, 0.4), random_.uniform(0.02, 0.4), 0.05);
+    const Vec3 size{random_.uniform(0.02, 0.4), random_.uniform(0.02, 0.4), 0.05};
     all.push_back(make_box(Box(low, low + size)));
     singly.emplace_back(std::vector<TriangleMesh>{all.back()});
   }

@@ -30,9 +30,9 @@ inline VoxelMap random_leaves(Rng& random, const RobotModel& robot, const Trolle
   VoxelMap map;
   const Pose T_world_base = robot.T_world_base(trolley);
   for (int leaf = 0; leaf < count; ++leaf) {
-    const Vec3 centre = T_world_base * Vec3(random.uniform(-0.9, 0.9), random.uniform(0.3, 0.9),
-                                            random.uniform(-0.2, 1.0));
-    const Vec3 normal = Vec3(random.normal(), random.normal(), random.normal()).normalized();
+    const Vec3 centre = T_world_base * Vec3{random.uniform(-0.9, 0.9), random.uniform(0.3, 0.9),
+                                            random.uniform(-0.2, 1.0)};
+    const Vec3 normal = Vec3{random.normal(), random.normal(), random.normal()}.normalized();
     const Vec3 u = normal.unitOrthogonal();
     const Vec3 v = normal.cross(u);
     for (double a = -0.04; a <= 0.04; a += 0.005) {

@@ -111,7 +111,7 @@ TEST(SelfFilter, TakesOutThePixelsThatShowTheRobotAndNoOthers) {
     const Configuration q = random_configuration(rng, robot);
     const Vec3 base = robot.T_world_base({}).translation();
     const Vec3 from =
-        base + Vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(0.2, 1)).normalized() * 1.4;
+        base + Vec3{rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(0.2, 1)}.normalized() * 1.4;
     const Rendered image = render(robot, q, look_at(from, base + Vec3(0, 0, 0.3)), 3.0);
     RgbdFrame frame = image.frame;
     const std::int64_t masked = filter.mask(frame, q, {});

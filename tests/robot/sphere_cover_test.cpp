@@ -10,8 +10,8 @@ namespace {
 Vec3 point_in(const CollisionShape& shape, Rng& random) {
   const Vec3 half = shape.half_extents();
   while (true) {
-    Vec3 p(random.uniform(-half.x(), half.x()), random.uniform(-half.y(), half.y()),
-           random.uniform(-half.z(), half.z()));
+    Vec3 p{random.uniform(-half.x(), half.x()), random.uniform(-half.y(), half.y()),
+           random.uniform(-half.z(), half.z())};
     const int axis = static_cast<int>(random.index(3));
     if (random.chance(0.5)) p[axis] = random.chance(0.5) ? half[axis] : -half[axis];
     if (signed_distance(shape, p) <= 0.0) return p;
@@ -40,7 +40,7 @@ TEST(SphereCover, HoldsEveryPointOfEveryLinkShape) {
 CollisionShape pebble(Rng& random, const Vec3& edges) {
   TriangleMesh mesh;
   for (int i = 0; i < 60; ++i) {
-    const Vec3 p = Vec3(random.normal(), random.normal(), random.normal()).normalized();
+    const Vec3 p = Vec3{random.normal(), random.normal(), random.normal()}.normalized();
     mesh.vertices.push_back((p.cwiseProduct(edges) / 2.0).cast<float>());
   }
   for (std::uint32_t i = 2; i < 60; ++i) mesh.triangles.push_back({0, i - 1, i});
@@ -77,7 +77,7 @@ TEST(ConvexGap, IsNoMoreThanTheDistanceAndMostOfIt) {
         CollisionShape::cylinder(0.05, 0.3), CollisionShape::sphere(0.1)};
     for (const CollisionShape& b : others) {
       Pose T = Pose::Identity();
-      T.translate(Vec3(random.normal(), random.normal(), random.normal()) * 0.25);
+      T.translate(Vec3{random.normal(), random.normal(), random.normal()} * 0.25);
       T.rotate(Eigen::AngleAxisd(random.uniform(0.0, 3.0), Vec3::UnitX()) *
                Eigen::AngleAxisd(random.uniform(0.0, 3.0), Vec3::UnitZ()));
       double distance = 1e300;  // of points of b; those of a's solid come by its planes
@@ -119,7 +119,7 @@ TEST(SignedDistance, IsTheDistanceToTheNearestPointOfTheShape) {
        {CollisionShape::box(Vec3(0.2, 0.1, 0.05)), CollisionShape::cylinder(0.05, 0.1),
         CollisionShape::sphere(0.07)}) {
     for (int trial = 0; trial < 200; ++trial) {
-      const Vec3 p(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3));
+      const Vec3 p{random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3)};
       double nearest = 1.0;
       for (int sample = 0; sample < 2000; ++sample)
         nearest = std::min(nearest, (point_in(shape, random) - p).norm());

@@ -238,7 +238,7 @@ TEST(PackedNormal, IsWithinADegree) {
   Rng rng(3, "normals");
   for (int i = 0; i < 1000; ++i) {
     const Eigen::Vector3f n =
-        Vec3(rng.normal(), rng.normal(), rng.normal()).normalized().cast<float>();
+        Vec3{rng.normal(), rng.normal(), rng.normal()}.normalized().cast<float>();
     const auto back = unpack_normal(pack_normal({n.x(), n.y(), n.z()}));
     EXPECT_GT(n.dot(Eigen::Vector3f(back[0], back[1], back[2])), 0.99985);
   }

@@ -21,8 +21,8 @@ NodeId add_view(ViewGraph& graph, TargetKind kind, const std::vector<VoxelIndex>
 std::vector<VoxelIndex> random_voxels(Rng& rng, int count) {
   std::vector<VoxelIndex> voxels;
   for (int i = 0; i < count; ++i) {
-    voxels.emplace_back(static_cast<int>(rng.index(24)) - 12, static_cast<int>(rng.index(8)),
-                        static_cast<int>(rng.index(8)));
+    voxels.push_back({static_cast<int>(rng.index(24)) - 12, static_cast<int>(rng.index(8)),
+                      static_cast<int>(rng.index(8))});
   }
   return voxels;
 }

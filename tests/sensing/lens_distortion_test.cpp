@@ -14,7 +14,7 @@ constexpr LensDistortion kLens{-0.12, 0.03, 0.0008, -0.0006, -0.004};
 TEST(LensDistortion, UndoesWhatItDid) {
   Rng rng(1);
   for (int i = 0; i < 10000; ++i) {
-    const Eigen::Vector2d ideal(rng.uniform(-0.9, 0.9), rng.uniform(-0.7, 0.7));
+    const Eigen::Vector2d ideal{rng.uniform(-0.9, 0.9), rng.uniform(-0.7, 0.7)};
     const Eigen::Vector2d back = kLens.undistort(kLens.distort(ideal));
     ASSERT_LT((back - ideal).norm(), 1e-10) << ideal.transpose();
   }

@@ -128,8 +128,8 @@ TEST(ViewGraph, ReadBackFromItsStateItIsTheSameGraph) {
   ViewGraph graph;
   for (int i = 0; i < 200; ++i) {
     ViewPose view = view_at(random_q(rng));
-    view.T_world_camera.translation() = Vec3(rng.uniform(), rng.uniform(), rng.uniform());
-    view.target_world = Vec3(rng.uniform(), rng.uniform(), rng.uniform());
+    view.T_world_camera.translation() = Vec3{rng.uniform(), rng.uniform(), rng.uniform()};
+    view.target_world = Vec3{rng.uniform(), rng.uniform(), rng.uniform()};
     view.kind = static_cast<TargetKind>(rng.index(4));
     const NodeId id = graph.add(std::move(view));
     graph.node(id).visited = rng.chance(0.2);
@@ -152,7 +152,7 @@ TEST(ViewGraph, ReadBackFromItsStateItIsTheSameGraph) {
     ASSERT_EQ(found_again.size(), found.size());
     for (std::size_t k = 0; k < found.size(); ++k) EXPECT_EQ(found_again[k].id, found[k].id);
     ViewPose view = view_at(q);
-    view.T_world_camera.translation() = Vec3(rng.uniform(), rng.uniform(), rng.uniform());
+    view.T_world_camera.translation() = Vec3{rng.uniform(), rng.uniform(), rng.uniform()};
     const SimilarityLimits limits{.position_m = 0.1};
     EXPECT_EQ(again.has_similar(view, limits), graph.has_similar(view, limits));
   }

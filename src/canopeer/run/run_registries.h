@@ -1,6 +1,6 @@
 #pragma once
 
-#include "canopeer/bounds/truth_planners.h"
+#include "canopeer/sim/truth_planners.h"
 #include "canopeer/mission/registries.h"
 #include "canopeer/run/site.h"
 

@@ -150,6 +150,18 @@ HandEyeMatrix prior_matrix() {
   return precision.asDiagonal();
 }
 
+/// Solves A x = b, A symmetric and positive. Its size is said at run time: unrolled for six and for
+/// seven rows this file took as long to compile as ten others.
+class Equations {
+ public:
+  explicit Equations(const Eigen::MatrixXd& a) : factors_(a) {}
+  [[nodiscard]] Eigen::VectorXd solved(const Eigen::VectorXd& b) const { return factors_.solve(b); }
+  [[nodiscard]] bool sound() const { return (factors_.vectorD().array() > 0.0).all(); }
+
+ private:
+  Eigen::LDLT<Eigen::MatrixXd> factors_;
+};
+
 /// Where an assumption lies from none.
 HandEyeVector vector_of(const Assumption& assumed) {
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(assumed.T_said_true.linear()));
@@ -209,9 +221,9 @@ Assumption fit(const Comparison& comparison, Assumption assumed, double max_offs
       if (sought == Sought::time) {
         step[6] = -gradient[6] / matrix(6, 6);
       } else if (sought == Sought::mounting) {
-        step.head<6>() = -matrix.topLeftCorner<6, 6>().ldlt().solve(gradient.head<6>());
+        step.head<6>() = -Equations(matrix.topLeftCorner<6, 6>()).solved(gradient.head<6>());
       } else {
-        step = -matrix.ldlt().solve(gradient);
+        step = -Equations(matrix).solved(gradient);
       }
       assumed = moved(assumed, step, max_offset_s);
       if (step.norm() < small_step) break;
@@ -244,9 +256,12 @@ HandEyeMatrix covariance(const Comparison& comparison, const std::vector<HandEye
     of_frame[comparison.pairs()[i].b] += sums[i].gradient;
   }
   for (const HandEyeVector& gradient : of_frame) spread += gradient * gradient.transpose();
-  const Eigen::LLT<HandEyeMatrix> factors(curvature);
-  if (factors.info() != Eigen::Success) return prior_matrix().inverse();  // it tells nothing
-  const HandEyeMatrix inverse = factors.solve(HandEyeMatrix::Identity());
+  const Equations equations(curvature);
+  if (!equations.sound()) {  // it tells nothing
+    return prior_matrix().diagonal().cwiseInverse().asDiagonal();
+  }
+  HandEyeMatrix inverse;
+  for (int i = 0; i < 7; ++i) inverse.col(i) = equations.solved(HandEyeVector::Unit(i));
   return inverse * spread * inverse;
 }
 

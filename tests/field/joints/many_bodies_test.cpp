@@ -78,7 +78,7 @@ void judge(const RobotModel& robot, int states, int edges, std::uint64_t seed) {
   Rng random(seed);
   VoxelMap map;
   for (int i = 0; i < 30; ++i) {
-    const Vec3 p(random.uniform(-0.8, 0.8), random.uniform(0.3, 1.0), random.uniform(0.1, 1.1));
+    const Vec3 p{random.uniform(-0.8, 0.8), random.uniform(0.3, 1.0), random.uniform(0.1, 1.1)};
     map.set_occupancy_log_odds(voxel_at(p, map.resolution_m()), 2.0F);
   }
   const DistanceField field = field_of(map);

@@ -67,7 +67,7 @@ DistanceField field_of(const VoxelMap& map) {
 VoxelMap leaves(Rng& random, int count) {
   VoxelMap map;
   for (int i = 0; i < count; ++i) {
-    const Vec3 p(random.uniform(-0.8, 0.8), random.uniform(0.3, 1.0), random.uniform(0.1, 1.1));
+    const Vec3 p{random.uniform(-0.8, 0.8), random.uniform(0.3, 1.0), random.uniform(0.1, 1.1)};
     map.set_occupancy_log_odds(voxel_at(p, map.resolution_m()), 2.0F);
   }
   return map;

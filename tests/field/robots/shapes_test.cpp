@@ -28,7 +28,7 @@ TEST(Capsule, IsWhatIsWithinItsRadiusOfItsAxis) {
     ASSERT_EQ(shapes.size(), 3U);
     Rng random(1);
     for (int trial = 0; trial < 2000; ++trial) {
-      const Vec3 p(random.uniform(-0.2, 0.4), random.uniform(0.1, 0.3), random.uniform(0.2, 0.4));
+      const Vec3 p{random.uniform(-0.2, 0.4), random.uniform(0.1, 0.3), random.uniform(0.2, 0.4)};
       double distance = 1.0;
       for (const CollisionShape& part : shapes)
         distance = std::min(distance, signed_distance(part, part.T_link_shape.inverse() * p));

@@ -7,7 +7,7 @@
 namespace canopeer::ros {
 namespace {
 
-using Steady = FrameIntake::Steady;
+using IntakeClock = FrameIntake::Steady;
 
 /// Joints that move less stand still: what encoders and a light breeze of vibration make.
 constexpr double kStill = 2e-3;  // rad or m
@@ -18,12 +18,12 @@ constexpr std::int64_t kFarBack = 5 * kNanosecondsPerSecond;
 /// How long one waits before looking at the joints again.
 constexpr auto kGlance = std::chrono::milliseconds(20);
 
-double seconds_between(Steady::time_point from, Steady::time_point to) {
+double seconds_between(IntakeClock::time_point from, IntakeClock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
 }
 
-Steady::duration in_seconds(double s) {
-  return std::chrono::duration_cast<Steady::duration>(std::chrono::duration<double>(s));
+IntakeClock::duration in_seconds(double s) {
+  return std::chrono::duration_cast<IntakeClock::duration>(std::chrono::duration<double>(s));
 }
 
 std::string text_of_seconds(double s) {
@@ -58,7 +58,7 @@ Expected<TimedFrame> CameraFeed::decode(const FrameMessages& messages) {
   timed.stamp = messages.stamp + offset_;
   const auto T_world_camera = poses_->at(timed.stamp, frame_id(messages));
   if (!T_world_camera) return tl::unexpected(T_world_camera.error());
-  const auto began = Steady::now();
+  const auto began = IntakeClock::now();
   const std::lock_guard lock(mutex_);
   auto frame = assembler_.assemble(messages);
   if (!frame) {
@@ -71,7 +71,7 @@ Expected<TimedFrame> CameraFeed::decode(const FrameMessages& messages) {
   timed.frame.T_world_camera = *T_world_camera;
   timed.frame.time_s = parts_.mission_time_s(timed.stamp);
   timed.waited_s = seconds_between(messages.arrived, began);
-  timed.decoded_s = seconds_between(began, Steady::now());
+  timed.decoded_s = seconds_between(began, IntakeClock::now());
   return timed;
 }
 
@@ -105,10 +105,10 @@ std::shared_ptr<const FrameMessages> CameraFeed::newest_with_pose(Stamp after,
 }
 
 Expected<TimedFrame> CameraFeed::capture() {
-  const auto deadline = Steady::now() + in_seconds(settings_.timeout_s);
+  const auto deadline = IntakeClock::now() + in_seconds(settings_.timeout_s);
   std::string why_none;
   Stamp from = 0, tried = 0;
-  while (Steady::now() < deadline) {
+  while (IntakeClock::now() < deadline) {
     if (auto ok = parts_.alive ? parts_.alive() : Expected<void>(); !ok) {
       return tl::unexpected(ok.error());
     }
@@ -120,7 +120,7 @@ Expected<TimedFrame> CameraFeed::capture() {
     }
     from = *counts;
     const Stamp first = std::max({from - offset_, tried + 1, last_given() + 1});
-    if (!intake_.wait_for(first, std::min(deadline, Steady::now() + kGlance))) continue;
+    if (!intake_.wait_for(first, std::min(deadline, IntakeClock::now() + kGlance))) continue;
     const auto messages = newest_with_pose(first - 1, &why_none);
     if (messages == nullptr) {  // its joint states come soon
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -184,7 +184,7 @@ std::string CameraFeed::silent_topics() const {
       add(parts_.topic(part), "");
       continue;
     }
-    const double silence = seconds_between(*heard.last, Steady::now());
+    const double silence = seconds_between(*heard.last, IntakeClock::now());
     if (silence < std::max(settings_.timeout_s, kSilent_s)) continue;
     add(parts_.topic(part), " for " + text_of_seconds(silence));
   }

@@ -42,7 +42,7 @@ Pose between_poses(const Pose& a, const Pose& b, double share) {
   return pose;
 }
 
-std::string seconds_text(std::int64_t ns) {
+std::string exact_seconds(std::int64_t ns) {
   char text[40];
   std::snprintf(text, sizeof text, "%.3f s", seconds(ns));
   return text;
@@ -146,10 +146,10 @@ Expected<Pose> TfBuffer::step(const std::string& child, std::optional<Stamp> sta
   if (link.is_static || !stamp) return samples.back().T_parent_child;
   const std::string what = "tf knows '" + child + "' in '" + link.parent + "' only ";
   if (*stamp > samples.back().stamp) {
-    return fail(what + "up to " + seconds_text(*stamp - samples.back().stamp) + " before");
+    return fail(what + "up to " + exact_seconds(*stamp - samples.back().stamp) + " before");
   }
   if (*stamp < samples.front().stamp) {
-    return fail(what + "from " + seconds_text(samples.front().stamp - *stamp) + " after on");
+    return fail(what + "from " + exact_seconds(samples.front().stamp - *stamp) + " after on");
   }
   const auto after =
       std::lower_bound(samples.begin(), samples.end(), *stamp,
@@ -159,7 +159,7 @@ Expected<Pose> TfBuffer::step(const std::string& child, std::optional<Stamp> sta
   const std::int64_t gap = after->stamp - before->stamp;
   if (gap > nanoseconds(kMaxGap_s)) {
     return fail("tf says nothing of '" + child + "' in '" + link.parent + "' for " +
-                seconds_text(gap) + ": have it published more often, or as static");
+                exact_seconds(gap) + ": have it published more often, or as static");
   }
   const double share = static_cast<double>(*stamp - before->stamp) / static_cast<double>(gap);
   return between_poses(before->T_parent_child, after->T_parent_child, share);

@@ -1,4 +1,4 @@
-#include "canopeer/bounds/true_gain.h"
+#include "canopeer/sim/true_gain.h"
 
 #include <gtest/gtest.h>
 

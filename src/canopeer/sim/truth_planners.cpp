@@ -1,11 +1,11 @@
-#include "canopeer/bounds/truth_planners.h"
+#include "canopeer/sim/truth_planners.h"
 
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "canopeer/base/check.h"
-#include "canopeer/bounds/true_gain.h"
+#include "canopeer/sim/true_gain.h"
 
 namespace canopeer {
 namespace {

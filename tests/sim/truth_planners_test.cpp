@@ -1,4 +1,4 @@
-#include "canopeer/bounds/truth_planners.h"
+#include "canopeer/sim/truth_planners.h"
 
 #include <gtest/gtest.h>
 
