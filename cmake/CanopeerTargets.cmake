@@ -12,8 +12,8 @@ add_compile_options(-ffp-contract=off)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   add_compile_options(-march=x86-64-v2)
 elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
-  # Nor behind Eigen's: it fuses where the compiler says that the machine can.
-  add_compile_options(-U__ARM_FEATURE_FMA)
+  # Nor behind Eigen's.
+  add_compile_options("SHELL:-include ${PROJECT_SOURCE_DIR}/cmake/unfused_neon.h")
 endif()
 
 find_program(CCACHE ccache)
