@@ -8,7 +8,7 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 
 last='$'
-[ "${1:-}" != demo ] || last='/Beyond the demo/'
+[ "${1:-}" != demo ] || last='/^# -* Beyond the demo/'
 mapfile -t wanted < <(sed -n "1,${last}p" "$root/packages.txt" | sed -e 's/#.*//' -e 's/[[:space:]]//g' -e '/^$/d')
 if [ "${DEB_HOST_ARCH:-}" = arm64 ]; then
   # Libraries of that machine's, or those for all; tools as they are.

@@ -136,6 +136,9 @@ TEST(InstallPackages, ALibraryOfThisMachineIsNoneOfAnother) {
 }
 
 TEST(InstallPackages, TheDemoTakesNoMoreThanItNeeds) {
+  Machine bare(read_file(testing_support::source_root() / "packages.txt").value(), "", "");
+  EXPECT_EQ(bare.run(false, "", "demo"), "update -qq\nfailed");
+  EXPECT_NE(bare.said().find("no package g++"), std::string::npos) << bare.said();
   const std::string packages = "g++\nliba-dev\n# ---- Beyond the demo ----\nlibb-dev\noracle?\n";
   const std::string release = "g++ liba-dev libb-dev oracle";
   EXPECT_EQ(Machine(packages, "", release).run(false, "", "demo"),
