@@ -41,4 +41,4 @@ endif()
 # A workspace finds it.
 file(WRITE ${FOLDER}/user/CMakeLists.txt
      "cmake_minimum_required(VERSION 3.16)\nproject(user NONE)\nfind_package(canopeer_ros2 0.1 REQUIRED)\n")
-run(${CMAKE_COMMAND} -S ${FOLDER}/user -B ${FOLDER}/user/build -DCMAKE_PREFIX_PATH=${installed})
+run(${CMAKE_COMMAND} -G Ninja -S ${FOLDER}/user -B ${FOLDER}/user/build -DCMAKE_PREFIX_PATH=${installed})
