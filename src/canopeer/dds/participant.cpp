@@ -252,6 +252,9 @@ class FastWriter final : public Writer, fast::DataWriterListener {
     to.publish_mode().kind = fast::SYNCHRONOUS_PUBLISH_MODE;
     to.durability().kind = fast::TRANSIENT_LOCAL_DURABILITY_QOS;
     to.reliability().max_blocking_time = {1, 0};
+    // Room for samples that left the history and are still held: with one only, 3.1 now and then
+    // refuses to write as soon as the history is full.
+    to.resource_limits().extra_samples = 32;
     to.endpoint().history_memory_policy = rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
     // What got lost is said again soon: big messages lose fragments in small socket buffers.
 #if CANOPEER_FAST_DDS >= 3
