@@ -50,11 +50,19 @@ apt-config dump Acquire | grep -E '^Acquire::(https?|Retries|Check-)' >"$root/et
 cp -L /etc/resolv.conf "$root/etc/resolv.conf"
 [ ! -f /etc/ssl/certs/ca-certificates.crt ] || cp -L /etc/ssl/certs/ca-certificates.crt "$root/etc/ssl/certs/"
 
+# What is as it was keeps its time. What has changed is as new as the copy: it may have changed while the last one was compiled.
 tree=$root/canopeer
-mkdir -p "$tree" "$root/root/.cache/ccache"
-find "$tree" -mindepth 1 -maxdepth 1 ! -name build ! -name out -exec rm -rf {} +
+copy=$root/canopeer.copy
+rm -rf "$copy"
+mkdir -p "$tree" "$copy" "$root/root/.cache/ccache"
 git -c safe.directory='*' ls-files -z --cached --others --exclude-standard |
-  tar -c --null --no-recursion --ignore-failed-read -T - | tar -x --no-same-owner -C "$tree"
+  tar -c --null --no-recursion --ignore-failed-read -T - | tar -x -m --no-same-owner -C "$copy"
+(cd "$copy" && find . -type f -print0) | while IFS= read -r -d '' file; do
+  ! cmp -s "$copy/$file" "$tree/$file" || touch -r "$tree/$file" "$copy/$file"
+done
+find "$tree" -mindepth 1 -maxdepth 1 ! -name build ! -name out -exec rm -rf {} +
+cp -a "$copy/." "$tree/"
+rm -rf "$copy"
 cache=$(ccache --get-config cache_dir 2>/dev/null || true)
 
 # The mounts end with the namespace, however the command ends.
