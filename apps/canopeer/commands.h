@@ -185,7 +185,8 @@ struct RobotCheckArguments {
   int states = 10000;
 };
 
-/// What to do when something is left out of this build, as much is where ./demo.sh made it.
+/// What to do when something is left out of this build, as ./demo.sh leaves out what it does not
+/// take.
 inline constexpr const char* kWholeBuild = "scripts/build.sh release builds all of it";
 
 // The commands. Each ends by returning, or by throwing Stop.

@@ -42,7 +42,7 @@ MailProg=/bin/true
 NodeName=loop NodeHostname=$host NodeAddr=127.0.0.1 CPUs=2
 PartitionName=main Nodes=loop Default=YES MaxTime=INFINITE
 EOF
-  # Slurm 24 wants control groups, which a container may not have; 22 does not know the word.
+  # Slurm 24.11 wants control groups, which a container may not have, unless told so; 22.05 goes without.
   [[ $(slurmd -V) =~ ([0-9]+)\.([0-9]+) ]] || return 1
   [ "$((10#${BASH_REMATCH[1]}${BASH_REMATCH[2]}))" -lt 2405 ] || echo "CgroupPlugin=disabled" >"$folder/cgroup.conf"
 }

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "canopeer/sim/truth_planners.h"
 #include "canopeer/mission/registries.h"
 #include "canopeer/run/site.h"
+#include "canopeer/sim/truth_planners.h"
 
 namespace canopeer {
 

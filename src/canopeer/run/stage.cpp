@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "canopeer/base/exact_text.h"
-#include "canopeer/sim/truth_planners.h"
 #include "canopeer/config/robot_file.h"
 #include "canopeer/mission/mission_time.h"
 #include "canopeer/mission/row_segments.h"
+#include "canopeer/sim/truth_planners.h"
 
 namespace canopeer {
 namespace {
