@@ -172,10 +172,9 @@ TEST_F(Collision, AStartThatBecameBlockedCanBeLeft) {
   EXPECT_TRUE(fast.state_free(back));
   EXPECT_FALSE(fast.edge_free(home, back));
   EXPECT_TRUE(fast.escape_free(home, back));
-  Configuration through = back;  // the camera's way leads over the voxel; the end is free
-  through[0] += 0.6;
-  Configuration aside = back;
-  aside[0] -= 0.6;
+  const Configuration turn = Configuration::Unit(home.size(), 0) * 0.6;
+  const Configuration through = back + turn;  // over the voxel; the end is free
+  const Configuration aside = back - turn;
   EXPECT_TRUE(fast.state_free(through));
   EXPECT_FALSE(fast.escape_free(home, through));
   EXPECT_TRUE(fast.escape_free(home, aside));

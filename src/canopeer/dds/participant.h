@@ -13,8 +13,8 @@
 #include "canopeer/base/expected.h"
 #include "canopeer/cdr/cdr.h"
 
-// A DDS domain as bytes: topics, samples, who else is there. The one file that knows the DDS
-// library is participant.cpp. Names here are DDS names ("rt/joint_states"); node.h has ROS names.
+// A DDS domain as bytes: topics, samples, who else is there. Only participant.cpp and the room
+// `fast` know the DDS library. Names here are DDS names ("rt/joint_states"); node.h has ROS names.
 
 namespace canopeer::ros {
 

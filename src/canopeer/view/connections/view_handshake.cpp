@@ -2,6 +2,7 @@
 
 #include <boost/beast/websocket.hpp>
 
+#include "canopeer/view/connections/reader_words.h"
 #include "canopeer/view/connections/view_reader.h"
 
 namespace canopeer {
@@ -31,8 +32,10 @@ void ViewReader::begin(const http::request<http::empty_body>& request, Tell tell
   socket_.binary(true);
   socket_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
     if (error) return;
-    self->waiting_.push_back(self->greeting());
-    if (self->told_speed_ != self->shared_.speed) self->waiting_.push_back(self->pace());
+    const ViewShared& shared = self->shared_;
+    self->waiting_.push_back(
+        greeting_frame(shared.options.live, self->may_steer_, shared.log->frames()));
+    if (self->told_speed_ != shared.speed) self->waiting_.push_back(self->pace());
     self->listen();
     self->pump();
   });

@@ -2,7 +2,8 @@
 
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/websocket.hpp>
-#include <nlohmann/json.hpp>
+
+#include "canopeer/view/connections/reader_words.h"
 
 namespace canopeer {
 namespace {
@@ -47,19 +48,9 @@ void ViewReader::close() {
   beast::get_lowest_layer(socket_).socket().close(ignored);
 }
 
-std::string ViewReader::greeting() const {
-  const nlohmann::ordered_json head = {{"type", "reader"},
-                                       {"live", shared_.options.live},
-                                       {"controls", may_steer_},
-                                       {"frames", shared_.log->frames()},
-                                       {"bytes", 0}};
-  return head.dump() + "\n";
-}
-
 std::string ViewReader::pace() {
   told_speed_ = shared_.speed;
-  const nlohmann::ordered_json head = {{"type", "pace"}, {"factor", shared_.speed}, {"bytes", 0}};
-  return head.dump() + "\n";
+  return pace_frame(told_speed_);
 }
 
 /// The frames of the next piece that has any for this reader; false: there is none yet.
@@ -86,8 +77,7 @@ bool ViewReader::next_piece() {
       }
     }
     if (!hurry && left_out_ > 0) {
-      waiting_.push_front("{\"type\":\"lost\",\"frames\":" + std::to_string(left_out_) +
-                          ",\"bytes\":0}\n");
+      waiting_.push_front(lost_frame(left_out_));
       left_out_ = 0;
     }
   }
@@ -114,24 +104,13 @@ bool ViewReader::talks_too_much() {
 
 /// What is no word of ours is passed over.
 void ViewReader::obey(const std::string& text) const {
-  const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (!json.is_object()) return;
-  const std::string type = json.value("type", nlohmann::json()).is_string()
-                               ? json.at("type").get<std::string>()
-                               : std::string();
-  const nlohmann::json word = json.value("word", nlohmann::json());
-  if (type == "steer" && word.is_string()) {
-    using Kind = SteeringWord::Kind;
-    for (const Kind kind : {Kind::go_on, Kind::next_segment, Kind::pause, Kind::stop}) {
-      if (word.get<std::string>() == steering_name(kind)) shared_.controls.steer(kind);
-    }
-  }
-  const nlohmann::json factor = json.value("factor", nlohmann::json());
-  if (type == "speed" && factor.is_number() && shared_.controls.speed) {
-    const double speed = factor.get<double>();
-    if (!(speed >= 0.0 && speed <= 1e6)) return;
-    shared_.controls.speed(speed);
-    shared_.speed = speed;
+  const auto word = reader_word(text);
+  if (!word) return;
+  if (const auto* kind = std::get_if<SteeringWord::Kind>(&*word)) {
+    shared_.controls.steer(*kind);
+  } else if (shared_.controls.speed) {
+    shared_.speed = std::get<double>(*word);
+    shared_.controls.speed(shared_.speed);
     tell_all_();
   }
 }

@@ -36,7 +36,6 @@ class ViewReader : public std::enable_shared_from_this<ViewReader> {
   void close();
 
  private:
-  [[nodiscard]] std::string greeting() const;
   [[nodiscard]] std::string pace();
   bool next_piece();
   void listen();
