@@ -25,9 +25,9 @@
 namespace canopeer::ros {
 namespace {
 
-template <class Octets>
-std::string text_of(const Octets& octets) {
-  return {octets.begin(), octets.end()};
+template <class Bytes>
+std::string text_of(const Bytes& bytes) {
+  return {bytes.begin(), bytes.end()};
 }
 
 class FastParticipant final : public Participant, fast::DomainParticipantListener {
